@@ -104,8 +104,7 @@ BLOCK = {
     "domain.extent": alone("half"),
     "particles.spacing": alone("0.1 um"),
     "particles.arrangement": alone("graded", beside=("solver.flow=", "domain.depth=4 um")),
-    "particles.fine_depth": alone("1.4 um")
-    + alone("1.2 um", beside=GRADED),
+    "particles.fine_depth": alone("1.4 um") + alone("1.2 um", beside=GRADED),
     "particles.fine_width": alone("1.4 um")
     + alone("1.4 um", beside=(*GRADED, "domain.width=9.6 um", "particles.coarsest=0.3 um")),
     "particles.kernel": alone("wendland-c2"),

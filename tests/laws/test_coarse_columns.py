@@ -134,9 +134,7 @@ def test_a_pool_that_comes_too_close_is_refused(tmp_path):
 def test_a_hundred_pools_wide_at_the_cost_of_two():
     """By default, where a spot melts: 150 um with as many particles and a quarter."""
     narrow = forecast(load_case("spot-steel"))
-    wide = forecast(
-        load_case("spot-steel", ("domain.width=150 um", "particles.coarsest=8 um"))
-    )
+    wide = forecast(load_case("spot-steel", ("domain.width=150 um", "particles.coarsest=8 um")))
     assert narrow.fine_width == pytest.approx(2.85e-6, rel=0.02)
     assert wide.fine_width == pytest.approx(narrow.fine_width, rel=1e-9)
     assert wide.particles < 1.25 * narrow.particles

@@ -157,5 +157,5 @@ def linear_means(
     # terms of one interval and node together
     key = np.concatenate([interval, interval]) * nodes.size + np.concatenate([left, left + 1])
     found, place = np.unique(key, return_inverse=True)
-    weight = np.bincount(place, terms)
+    weight = np.bincount(place, terms).astype(np.float64)
     return found // nodes.size, found % nodes.size, weight

@@ -2,9 +2,9 @@
 
 Dummy layers and columns continue the lattice past each face that is not free. Each dummy knows
 which inner particle it stands for (mirror image or periodic image) or which face gives its
-temperature. Beside coarse columns (`coarse_columns`) dummies stand for the cells there; those cells
-have one layer of dummies of their own. Patterns that repeat within one support radius are unfolded as often as needed.
-`sides` are the faces normal to x and y.
+temperature. Patterns that repeat within one support radius are unfolded as often as needed.
+Beside coarse columns (`coarse_columns`) dummies of fine particles stand for the cells there; these
+have one layer of dummies of their own. `sides` are the faces normal to x and y.
 """
 
 from __future__ import annotations
@@ -92,10 +92,10 @@ class Filling:
     beside: Beside | None = None
 
     @property
-    def fine_numbers(self) -> NDArray[np.int64] | None:
-        """The particles of the fine columns and their dummies; None where they are all."""
+    def fine_numbers(self) -> NDArray[np.int64] | slice:
+        """The particles of the fine columns and their dummies."""
         if self.beside is None:
-            return None
+            return slice(None)
         last = self.position.shape[1] - self.beside.owner.size
         return np.concatenate([np.arange(self.fine_count), np.arange(self.count, last)])
 
@@ -217,9 +217,7 @@ def _coarse_cells(columns: CoarseColumns) -> tuple[dict[str, NDArray[Any]], NDAr
     """Particles of the coarse columns, and which of those at the surface is over each."""
     position, count = columns.positions(), columns.count
     at_surface = columns.number[0][columns.number[0] != NONE].size
-    cells = _block(
-        position, columns.widths(), columns.cells[-1], columns.first + np.arange(count)
-    )
+    cells = _block(position, columns.widths(), columns.cells[-1], columns.first + np.arange(count))
     return cells, np.arange(count) % at_surface
 
 
@@ -237,7 +235,8 @@ def _coarse_dummies(
             continue
         # the array of cells has the layer first, the surface its upper end
         along = columns.array_axis(axis, dimension)
-        cells = columns.number.take(-end if axis < dimension - 1 else end - 1, axis=along)
+        place_along = -end if axis < dimension - 1 else end - 1
+        cells = np.asarray(columns.number.take(place_along, axis=along))
         cells = cells[cells != NONE] - columns.first
         # mirrored
         place = position[:, cells].copy()
@@ -257,9 +256,7 @@ def _coarse_dummies(
         )
         owners.append(columns.first + cells)
         axes.append(np.full(cells.size, axis))
-    merged = {
-        key: np.concatenate([block[key] for block in blocks], axis=-1) for key in blocks[0]
-    }
+    merged = {key: np.concatenate([block[key] for block in blocks], axis=-1) for key in blocks[0]}
     return merged, np.concatenate(owners), np.concatenate(axes)
 
 

@@ -151,12 +151,15 @@ def stack(
         thickness = _graded(spacing, lattice, domain.depth, fine_depth)
     # coarse columns where the block is wider than what is kept fine
     least = LEAST_BESIDE * lattice.support_over_spacing * float(thickness.max())
-    beside = tuple(
-        tuple(_columns_beside(end, spacing, lattice, fine_width, least) for end in (-lower, upper))
+    beside: tuple[tuple[Array, Array], ...] = tuple(
+        (
+            _columns_beside(-lower, spacing, lattice, fine_width, least),
+            _columns_beside(upper, spacing, lattice, fine_width, least),
+        )
         for lower, upper in bounds
     )
-    has_none = not any(widths.size for widths in chain.from_iterable(beside))
-    beside = () if has_none else beside
+    if not any(widths.size for widths in chain.from_iterable(beside)):
+        beside = ()
     # fine columns of each layer as wide as it is thick
     fine = Layers(thickness, np.ones((len(bounds), 1), np.int64), bounds, geometry, beside)
     columns = [

@@ -16,7 +16,7 @@ them, where the other half is that of the fine particle's line.
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,7 +32,7 @@ class PairRows(NamedTuple):
     """Pairs on the host: row i and neighbor j of each, and its weight g [m^(d-2)]; rows rise."""
 
     row: Numbers
-    neighbor: Numbers
+    neighbor: NDArray[Any]
     weight: Array
 
 
@@ -47,7 +47,7 @@ def pairs_beside(filling: Filling, fine: PairRows) -> tuple[PairRows, PairRows]:
     crossing = _crossing(filling, beside, fine)
     coarse = _coarse_pairs(filling, beside, crossing)
     # rows of the fine particles come first
-    return PairRows(*(np.concatenate(ends) for ends in zip(fine, coarse, strict=True))), crossing
+    return _together(fine, coarse), crossing
 
 
 def without_joined(filling: Filling, whole: PairRows, crossing: PairRows) -> PairRows:
@@ -56,11 +56,9 @@ def without_joined(filling: Filling, whole: PairRows, crossing: PairRows) -> Pai
     is_joined = np.zeros(filling.position.shape[1], bool)
     is_joined[filling.beside.joined] = True
     stays = ~is_joined[whole.neighbor]
+    old = PairRows(whole.row[stays], whole.neighbor[stays], whole.weight[stays])
     i, m, g = crossing
-    added = [np.concatenate(ends) for ends in ((i, m), (m, i), (g, g))]
-    return _sorted(
-        *(np.concatenate([old[stays], new]) for old, new in zip(whole, added, strict=True))
-    )
+    return _sorted(_together(old, crossing, PairRows(m, i, g)))
 
 
 def _crossing(filling: Filling, beside: Beside, fine: PairRows) -> PairRows:
@@ -83,7 +81,8 @@ def _crossing(filling: Filling, beside: Beside, fine: PairRows) -> PairRows:
 
     # pairs that meet in several dummies are one
     key, where = np.unique(i * filling.count + m, return_inverse=True)
-    return PairRows(key // filling.count, key % filling.count, np.bincount(where, g))
+    total = np.bincount(where, g).astype(np.float64)
+    return PairRows(key // filling.count, key % filling.count, total)
 
 
 def _cells_of_dummies(
@@ -102,12 +101,14 @@ def _cells_of_dummies(
         side = np.where(x < low, -1, np.where(x > high, 1, 0))
         found = []
         fine = columns.fine[axis]
-        for which, part in ((-1, slice(0, fine.start)), (0, slice(None)), (1, slice(fine.stop, None))):
+        for which, part in (
+            (-1, slice(0, fine.start)),
+            (0, slice(None)),
+            (1, slice(fine.stop, None)),
+        ):
             chosen = np.flatnonzero(side == which)
             if chosen.size:
-                k, node, c = linear_means(
-                    center[part], (x - half)[chosen], (x + half)[chosen]
-                )
+                k, node, c = linear_means(center[part], (x - half)[chosen], (x + half)[chosen])
                 found.append((chosen[k], node + (part.start or 0), c))
         k, node, c = (np.concatenate(parts) for parts in zip(*found, strict=True))
         order = np.argsort(k, kind="stable")
@@ -128,7 +129,7 @@ def _cells_of_dummies(
 def _coarse_pairs(filling: Filling, beside: Beside, crossing: PairRows) -> PairRows:
     """Pairs of coarse cells with the next ones, and with dummies beyond the faces of the block."""
     columns, dimension = beside.columns, filling.position.shape[0]
-    found: list[tuple[Numbers, Numbers, Array]] = []
+    found: list[PairRows] = []
     outer = filling.position.shape[1] - beside.owner.size + np.arange(beside.owner.size)
     for axis in range(dimension):
         along = columns.array_axis(axis, dimension)
@@ -141,7 +142,8 @@ def _coarse_pairs(filling: Filling, beside: Beside, crossing: PairRows) -> PairR
         free = np.maximum(area - _taken(filling, columns, crossing, axis), 0.0)
         distance = 0.5 * (size[:-1] + size[1:])
         g = (np.moveaxis(free, along, -1)[..., 1:-1] / distance)[there]
-        found += [(left[there], right[there], g), (right[there], left[there], g)]
+        one, other = left[there], right[there]
+        found += [PairRows(one, other, g), PairRows(other, one, g)]
 
         # dummies beyond the faces normal to the axis; areas of their cells' outer faces
         faces = np.flatnonzero(beside.axis == axis)
@@ -151,8 +153,8 @@ def _coarse_pairs(filling: Filling, beside: Beside, crossing: PairRows) -> PairR
         above = (x > own) if axis < dimension - 1 else (x < own)
         plane = [one + (above if k == axis else 0) for k, one in enumerate(cell)]
         outside = area[plane[-1], *plane[:-1]]
-        found.append((owner, dummy, outside / np.abs(x - own)))
-    return _sorted(*(np.concatenate(parts) for parts in zip(*found, strict=True)))
+        found.append(PairRows(owner, dummy, outside / np.abs(x - own)))
+    return _sorted(_together(*found))
 
 
 def _taken(filling: Filling, columns: CoarseColumns, crossing: PairRows, axis: int) -> Array:
@@ -196,7 +198,16 @@ def _taken(filling: Filling, columns: CoarseColumns, crossing: PairRows, axis: i
     return summed.take(np.arange(shape[axis] - 1), axis=columns.array_axis(axis, dimension))
 
 
-def _sorted(row: Numbers, neighbor: Numbers, weight: Array) -> PairRows:
+def _together(*parts: PairRows) -> PairRows:
+    """All pairs of several lists, one list after the other."""
+    return PairRows(
+        np.concatenate([one.row for one in parts]),
+        np.concatenate([one.neighbor for one in parts]),
+        np.concatenate([one.weight for one in parts]),
+    )
+
+
+def _sorted(pairs: PairRows) -> PairRows:
     """Pairs in the order of their rows, those of a row as they come."""
-    order = np.argsort(row, kind="stable")
-    return PairRows(row[order], neighbor[order], weight[order])
+    order = np.argsort(pairs.row, kind="stable")
+    return PairRows(pairs.row[order], pairs.neighbor[order], pairs.weight[order])

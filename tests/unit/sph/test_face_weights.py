@@ -39,7 +39,11 @@ def pairs_of(backend, body):
     pairs = body.pairs
     start = backend.to_host(pairs.neighbors.row_start).astype(int)
     row = np.repeat(np.arange(body.count), np.diff(start))
-    return row, backend.to_host(pairs.neighbors.neighbor).astype(int), backend.to_host(pairs.weights)
+    return (
+        row,
+        backend.to_host(pairs.neighbors.neighbor).astype(int),
+        backend.to_host(pairs.weights),
+    )
 
 
 @pytest.mark.parametrize("name", ROOMS)
@@ -98,9 +102,7 @@ def test_rises_with_depth_flow_evenly():
 def test_given_temperatures_of_faces():
     """At rest between a cold bottom and a hot right side, heat through coarse cells is that of the
     face: A = area over half a cell."""
-    backend, body = body_of(
-        "plane", 1.6e-6, right="fixed-temperature", right_temperature=500.0
-    )
+    backend, body = body_of("plane", 1.6e-6, right="fixed-temperature", right_temperature=500.0)
     a = backend.to_host(body.pairs.boundary_coefficient)
     width = body.filling.width[:, : body.count]
     touched = np.flatnonzero(a > 0.0)

@@ -196,24 +196,20 @@ def _weights(
     """Pairs of the fine particles with dummies: the list, and rows and weights on the host."""
     # fine particles and their dummies
     seen = filling.fine_numbers
-    position, volume, layer, measure = (
-        values if seen is None else values[..., seen]
-        for values in (filling.position, filling.volume, filling.layer, filling.measure)
-    )
-    thickness = filling.width[-1] if seen is None else filling.width[-1, seen]
+    layer = filling.layer[seen]
 
     # g_ij of all of them
     normal, lateral = weighing.factors(layer)
     fields = {
-        "V": backend.asarray(volume),
+        "V": backend.asarray(filling.volume[seen]),
         "layer": backend.asarray(layer),
         "normal": backend.asarray(normal),
         "lateral": backend.asarray(lateral),
     }
     neighbors = find_neighbors(
         backend,
-        backend.asarray(position),
-        backend.asarray(weighing.ratio * thickness),
+        backend.asarray(filling.position[:, seen]),
+        backend.asarray(weighing.ratio * filling.width[-1, seen]),
         filling.fine_count,
         kernel=weighing.kernel,
         mean=weighing.mean,
@@ -222,14 +218,15 @@ def _weights(
     backend.pair_values(weighing.function, neighbors, fields, weights, **weighing.constants)
     # pairs of rings pass on heat through the mean ring
     if filling.is_axisymmetric:
-        rings = {"g_ij": weights, "measure": backend.asarray(measure)}
+        rings = {"g_ij": weights, "measure": backend.asarray(filling.measure[seen])}
         backend.pair_values(ring_weight, neighbors, rings, weights)
 
     # row of each pair, on the host, where faces are assembled
     row_start = backend.to_host(neighbors.row_start).astype(np.int64)
     row = np.repeat(np.arange(filling.fine_count), np.diff(row_start))
     neighbor = backend.to_host(neighbors.neighbor)
-    neighbor = neighbor if seen is None else seen[neighbor]
+    if filling.beside is not None:
+        neighbor = np.arange(filling.position.shape[1])[seen][neighbor]
     return neighbors, PairRows(row, neighbor, np.array(backend.to_host(weights)))
 
 

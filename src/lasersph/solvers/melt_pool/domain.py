@@ -62,8 +62,9 @@ class PoolDomain:
 
     Attributes:
         box: lower and upper end of each axis [m].
-        layers: of the fine columns. spacing, support: of the particles that move [m]. block_layers: layers of the
-            present block but for its margin. volume: (n,) of the particles [m^2].
+        layers: of the fine columns. spacing, support: of the particles that move [m].
+            block_layers: layers of the present block but for its margin. volume: (n,) of the
+            particles [m^2].
     """
 
     def __init__(
@@ -212,9 +213,7 @@ class PoolDomain:
         low, high = self._ends
         fields = {"x": position, "fluid": kinds.fluid}
         out, reduce = (None, None), ("max", "max")
-        beyond = self.backend.pointwise(
-            fluid_reach, fields, out, reduce=reduce, low=low, high=high
-        )
+        beyond = self.backend.pointwise(fluid_reach, fields, out, reduce=reduce, low=low, high=high)
         if max(beyond) <= 0.0:
             return
         x = low - beyond[0] if beyond[0] > 0.0 else high + beyond[1]
@@ -225,4 +224,3 @@ class PoolDomain:
             f"{format_quantity(self.spacing, 'm')}, which begin at {format_quantity(end, 'm')}; "
             f'give particles.fine_width = "{1e9 * needed:.0f} nm" or more'
         )
-
