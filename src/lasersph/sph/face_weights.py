@@ -158,8 +158,8 @@ def _coarse_pairs(filling: Filling, beside: Beside, crossing: PairRows) -> PairR
 
 
 def _taken(filling: Filling, columns: CoarseColumns, crossing: PairRows, axis: int) -> Array:
-    """What pairs of fine and coarse particles conduct through the faces normal to an axis at unit
-    gradient, A' [m^(d-1)], in the shape of `CoarseColumns.area`."""
+    """Heat that pairs of fine and coarse particles conduct through the faces normal to an axis at
+    unit gradient, A' [m^(d-1)], in the shape of `CoarseColumns.area`."""
     dimension = filling.position.shape[0]
     is_depth = axis == dimension - 1
     cell = [place[crossing.neighbor - columns.first] for place in columns.cells]

@@ -102,6 +102,8 @@ class SurfaceColumns:
         Args:
             numbers: (k,) of them. area: (n,) of all on the lattice [m].
         """
+        if not numbers.size:
+            return
         backend, rows = self.backend, self.backend.asarray(numbers, "index")
         found = backend.zeros(numbers.size)
         backend.gather(area, rows, found)

@@ -59,6 +59,8 @@ class SurfaceExchange:
         self.power, self.slope, self.mass_flux = (backend.zeros(count) for _ in range(3))
         self._lattice = backend.asarray(body.filling.surface, "index"), body.area
         self.rows, self.area = self._lattice
+        # and those of coarse columns, which rest
+        self._beside = body.filling.surface[body.filling.fine_surface :]
         self._columns: SurfaceColumns | None = None
 
         # what losses depend on: surroundings, and the vapor's curves where it evaporates
@@ -79,6 +81,7 @@ class SurfaceExchange:
 
     def use_columns(self, columns: SurfaceColumns, rows: Rows) -> None:
         """Let the surface be that of the particles `rows` that lie at it now (2-D)."""
+        columns.keep(self._beside, self._lattice[1])
         self._set_surface(rows, columns.area)
         self._columns = columns
 

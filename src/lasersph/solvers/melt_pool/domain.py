@@ -185,12 +185,13 @@ class PoolDomain:
         assert self._block is not None
         return self._block
 
-    def keep_resting(self, has_row: Array) -> None:
-        """Set marks (count,) of rows to 0 whose pairs reach coarse columns, which stay."""
+    def keep_resting(self, has_row: Array) -> Array:
+        """Marks (count,) of rows, changed in place: 0 where pairs reach coarse columns, and stay."""
         if self._free is None:
-            return
+            return has_row
         fields = {"mark": has_row, "free": self.backend.head(self._free, has_row.shape[0])}
         self.backend.pointwise(resting, fields, has_row)
+        return has_row
 
     def _fluid_ends(self, layers: Layers) -> tuple[float, float]:
         """Ends along x within which what flows must stay [m], infinite where no columns are coarse.

@@ -155,6 +155,5 @@ class LayoutRenewal:
         block = domain.block_for(position, self.kinds)
         has_row = backend.zeros(block.count)
         backend.fill(has_row, 1.0)
-        domain.keep_resting(has_row)
-        block.find_pairs(position, has_row)
+        block.find_pairs(position, domain.keep_resting(has_row))
         self.pairs.update(block)

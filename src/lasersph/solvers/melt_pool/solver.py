@@ -93,7 +93,6 @@ class MeltPool:
         self.surface_columns = SurfaceColumns(
             backend, count, domain.box[0][0], domain.width / columns, columns
         )
-        self.surface_columns.keep(heat.body.filling.surface[columns:], heat.body.area)
         self.spacing_min = domain.spacing
         self.fluid_count = 0.0
         self._has_moved = False
@@ -345,8 +344,7 @@ class MeltPool:
         now = block.find_near_fluid(position, self.kinds.fluid)
         fields = {"a": now, "b": block.find_near_fluid(self.position, self.kinds.before)}
         self.backend.pointwise(either, fields, now)
-        self.domain.keep_resting(now)
-        return now
+        return self.domain.keep_resting(now)
 
     def _measure(self) -> None:
         """Measures of the step, for observers."""
