@@ -95,6 +95,7 @@ BOUNDARIES = (
         "boundaries.ambient_pressure": alone("0 Pa", beside=BOILING) + alone("0 Pa"),
     }
 )
+GRADED = ("particles.arrangement=graded", "domain.depth=4 um", "solver.flow=")
 BLOCK = {
     "initial_temperature": alone("1300 K"),
     "domain.depth": alone("3 um"),
@@ -103,8 +104,9 @@ BLOCK = {
     "domain.extent": alone("half"),
     "particles.spacing": alone("0.1 um"),
     "particles.arrangement": alone("graded", beside=("solver.flow=", "domain.depth=4 um")),
-    "particles.fine_depth": alone("1.4 um")
-    + alone("1.2 um", beside=("particles.arrangement=graded", "domain.depth=4 um", "solver.flow=")),
+    "particles.fine_depth": alone("1.4 um") + alone("1.2 um", beside=GRADED),
+    "particles.fine_width": alone("1.4 um")
+    + alone("1.4 um", beside=(*GRADED, "domain.width=9.6 um", "particles.coarsest=0.3 um")),
     "particles.kernel": alone("wendland-c2"),
     "particles.support_ratio": alone("3.2"),
 } | {

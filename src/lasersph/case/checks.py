@@ -32,7 +32,7 @@ USUAL_WIDTH = 5e-6
 IMPLICIT_STEPS = ("temperature_change", "cooling", "growth")
 IMPLICIT_SOLUTION = ("tolerance", "iteration")
 """Keys of [time] and [solver] that implicit steps alone read."""
-GRADED = ("fine_depth", "coarsest", "ratio")
+GRADED = ("fine_depth", "fine_width", "coarsest", "ratio")
 """Keys of [particles] that graded ones alone read."""
 
 
@@ -149,6 +149,7 @@ def _domain(case: CaseContents) -> Iterator[tuple[str, str]]:
                 f"{format_quantity(lattice.spacing, 'm')}; give a larger domain or a finer spacing",
             )
     yield from _faces(case)
+    yield from _fine_width(case)
 
 
 def _faces(case: CaseContents) -> Iterator[tuple[str, str]]:
@@ -194,6 +195,21 @@ def _faces(case: CaseContents) -> Iterator[tuple[str, str]]:
         yield (
             "boundaries.surface",
             'graded particles do not repeat in z; write arrangement = "uniform" in [particles]',
+        )
+
+
+def _fine_width(case: CaseContents) -> Iterator[tuple[str, str]]:
+    """Whether columns can be finer in the middle than beside it."""
+    if case.particles.fine_width is None:
+        return
+    faces, key = case.boundaries, "particles.fine_width"
+    if case.solver.dimensions == 1:
+        yield key, no_axis("x", 2, 1)
+    elif "periodic" in (faces.kind_of("left"), faces.kind_of("right"), faces.sides):
+        yield (
+            key,
+            "columns beside the middle of a period would be coarse where it repeats; leave it out, "
+            'or write sides = "adiabatic" in [boundaries]',
         )
 
 

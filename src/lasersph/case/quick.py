@@ -27,6 +27,10 @@ def quick_settings(case: Case) -> list[str]:
         settings.append(f"particles.coarsest={spacing!r} m")
     if case.particles.fine_depth is not None and case.particles.fine_depth < spacing:
         settings.append(f"particles.fine_depth={spacing!r} m")
+    # Solid beside a pool takes as many spacings.
+    if case.particles.fine_width is not None:
+        width = case.particles.fine_width * spacing / case.particles.spacing
+        settings.append(f"particles.fine_width={width!r} m")
     # Longer steps; explicit ones follow from the spacing.
     if case.time.step is not None and not case.solver.is_explicit:
         settings.append(f"time.step={STEP_FACTOR * case.time.step!r} s")

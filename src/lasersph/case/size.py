@@ -1,7 +1,8 @@
 """How large a case is before anything is allocated: a lower estimate to refuse the absurd, and
 how much of it is computed where only what heat can reach is.
 
-Layers of thickness d hold width/d columns; graded layers grow by 1/ratio up to the coarsest. The
+Layers of thickness d hold width/d columns; graded layers grow by 1/ratio up to the coarsest, and so
+do columns beside a fine width. The
 exact counts come from the filling itself; this estimate is good to some percent where the fine
 depth is given. Heat is followed down to 1e-11 of its largest rise: erfc(4.8) of the penetration
 2 sqrt(D t); cells become active ahead of it by some supports.
@@ -11,6 +12,7 @@ from __future__ import annotations
 
 import math
 import os
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -49,6 +51,11 @@ class Size:
 def size_of(case: CaseContents) -> Size:
     """Estimated size of a case; where cold matter is inactive, only the rest has neighbors."""
     lattice, dimensions = case.particles, case.solver.dimensions
+    # columns beside a spot may be coarse, too, where no width is given
+    if lattice.fine_width is None and has_spot_in_the_middle(case):
+        assert case.laser is not None
+        width = 0.5 * case.laser.spot_fluence.diameter
+        lattice = lattice.model_copy(update={"fine_width": width})
     count = estimate_count(case.domain, lattice, case.geometry)
     share = active_share(case, lattice.support_over_spacing * lattice.spacing)
     pairs = count * share * neighbor_count(lattice, dimensions)
@@ -73,26 +80,52 @@ def neighbor_count(lattice: Lattice, dimensions: int) -> float:
 
 def estimate_count(domain: Domain, lattice: Lattice, geometry: Geometry) -> float:
     """Estimated number of particles of a block in 1, 2 or 3 dimensions."""
-    sides = [high - low for low, high in domain.lateral(geometry)]
+    fine_width = lattice.fine_width or math.inf
+    ends = [(-low, high) for low, high in domain.lateral(geometry)]
+    sides = [sum(min(end, fine_width) for end in pair) for pair in ends]
 
     def per_layer(thickness: float) -> float:
         return math.prod(max(1.0, side / thickness) for side in sides)
 
     # One spacing everywhere.
     if lattice.arrangement == "uniform":
-        count = max(1.0, domain.depth / lattice.spacing) * per_layer(lattice.spacing)
-    else:
-        # Graded: the fine layers, then layers that grow by 1/ratio, then the coarsest.
-        fine = min(lattice.fine_depth or ASSUMED_FINE_DEPTH, domain.depth)
-        count = max(1.0, fine / lattice.spacing) * per_layer(lattice.spacing)
-        depth, thickness = fine, lattice.spacing / lattice.ratio
-        while depth < domain.depth and thickness < lattice.coarsest:
-            count += per_layer(thickness)
-            depth += thickness
-            thickness /= lattice.ratio
-        if depth < domain.depth:
-            count += (domain.depth - depth) / lattice.coarsest * per_layer(lattice.coarsest)
-    return count
+        return max(1.0, domain.depth / lattice.spacing) * per_layer(lattice.spacing)
+    # Graded: the fine layers, then layers that grow by 1/ratio, then the coarsest.
+    fine = min(lattice.fine_depth or ASSUMED_FINE_DEPTH, domain.depth)
+    layers = max(1.0, fine / lattice.spacing)
+    count = layers * per_layer(lattice.spacing)
+    for number, thickness in _growing(lattice, domain.depth - fine):
+        layers += number
+        count += number * per_layer(thickness)
+    # Columns beside the fine ones, the same in all layers.
+    across = [
+        max(1.0, side / lattice.spacing)
+        + sum(number for end in pair for number, _ in _growing(lattice, end - fine_width))
+        for side, pair in zip(sides, ends, strict=True)
+    ]
+    return count + layers * (math.prod(across) - per_layer(lattice.spacing))
+
+
+def _growing(lattice: Lattice, length: float) -> Iterator[tuple[float, float]]:
+    """Numbers and sizes [m] of cells that fill a length [m], from the finest to the coarsest."""
+    filled, size = 0.0, lattice.spacing / lattice.ratio
+    while filled < length and size < lattice.coarsest:
+        yield 1.0, size
+        filled += size
+        size /= lattice.ratio
+    if filled < length:
+        yield (length - filled) / lattice.coarsest, lattice.coarsest
+
+
+def has_spot_in_the_middle(case: CaseContents) -> bool:
+    """Whether the light of a case is one spot that rests in the middle of a block, or on its axis,
+    and melts what no period repeats."""
+    laser, faces, metal = case.laser, case.boundaries, case.material
+    if laser is None or case.solver.dimensions == 1 or not laser.is_bounded:
+        return False
+    rests = laser.path is None and laser.position == (0.0, 0.0) and not laser.beam.is_pattern
+    repeats = "periodic" in (faces.kind_of("left"), faces.kind_of("right"), faces.sides)
+    return rests and not repeats and case.solver.phase_change and metal.melting is not None
 
 
 def machine_memory() -> float:

@@ -136,6 +136,10 @@ class LayeredLight:
         self._entering: dict[str, Any] = {"R_T": R_T, "R_R": R_R, "beyond": beyond}
         self._area = backend.asarray(self.surface_area)
         self.fluence, self.columns = backend.zeros(surface.size), backend.zeros(surface.size)
+        # temperatures of the surface are those of the first particles but for coarse columns
+        self._fine_count, self._fine_surface = filling.fine_count, filling.fine_surface
+        self._over = backend.asarray(surface, "index") if filling.beside is not None else None
+        self._T_s = backend.zeros(surface.size)
         self._surface: SurfaceColumns | None = None
         self._stretched: dict[str, Array] = {}
         self._cell = {"area": backend.asarray(area), "width": backend.asarray(width[0])}
@@ -146,7 +150,7 @@ class LayeredLight:
 
     def _lay_cells(self, width: np.ndarray, half: np.ndarray, alpha: float) -> None:
         """Cells for particles as large as those of the surface, which come first."""
-        backend, columns = self.backend, self.surface_area.size
+        backend, columns = self.backend, self._fine_surface
         # coarse layers below keep the shares that they have on the lattice
         is_fine = np.all(np.isclose(width, width[:, :1], rtol=1e-9), axis=0)
         self._fine = is_fine.size if is_fine.all() else int(np.argmin(is_fine))
@@ -210,7 +214,7 @@ class LayeredLight:
             # surface absorption: the particles at the surface take all, each of its two columns
             ends = surface.shares(float(self.surface_area[0]))
             for side, (column, share) in zip(("", "_right"), ends, strict=True):
-                backend.fill(self._moving[f"share{side}"], 0.0)
+                backend.fill(backend.head(self._moving[f"share{side}"], self._fine_count), 0.0)
                 backend.scatter(share, surface.rows, self._moving[f"share{side}"])
                 backend.scatter(column, surface.rows, self._moving[f"column{side}"])
             return
@@ -298,9 +302,16 @@ class LayeredLight:
             self.backend.fill(self.deposit, 0.0)
             return 0.0
         T_s, shares = temperature, self._stretched or self._lattice
+        if self._over is not None:
+            T_s = self._T_s
+            self.backend.gather(temperature, self._over, T_s)
         # R depends on T: the mean of the particles at the surface now
         if self._varies and self._surface is not None:
-            T_s = self._surface.mean(temperature)
+            mean = self._surface.mean(temperature)
+            if self._over is None:
+                T_s = mean
+            else:
+                self.backend.copy(mean, self.backend.head(T_s, self._fine_surface))
         if self._surface is not None and self._moving:
             shares = self._moving
         self.reflected, self.transmitted, absorbed = self.take_light(T_s, shares)

@@ -3,7 +3,8 @@
 Dummy layers and columns continue the lattice past each face that is not free. Each dummy knows
 which inner particle it stands for (mirror image or periodic image) or which face gives its
 temperature. Patterns that repeat within one support radius are unfolded as often as needed.
-`sides` are the faces normal to x and y.
+Beside coarse columns (`coarse_columns`) dummies of fine particles stand for the cells there; these
+have one layer of dummies of their own. `sides` are the faces normal to x and y.
 """
 
 from __future__ import annotations
@@ -15,7 +16,18 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from lasersph.particles.faces import BACK, BOTTOM, FRONT, LATERAL, LEFT, RIGHT, SURFACE, faces_of
+from lasersph.particles.coarse_columns import NONE, CoarseColumns
+from lasersph.particles.faces import (
+    BACK,
+    BOTTOM,
+    ENDS,
+    FRONT,
+    LATERAL,
+    LEFT,
+    RIGHT,
+    SURFACE,
+    faces_of,
+)
 from lasersph.particles.layers import Layers
 
 Array = NDArray[np.float64]
@@ -24,8 +36,28 @@ GHOSTS = 5
 GRADED_GHOSTS = 12
 """Dummy columns of graded layers: a coarse particle reaches over many columns of a finer layer."""
 FREE, MIRROR, PERIODIC, DIRICHLET = "free", "mirror", "periodic", "dirichlet"
+JOINED = "joined"
+"""Kind of the end of the fine columns beside which coarse ones lie."""
 FACES = ("none", *faces_of(3))
 """Faces by the number that dummies have of them."""
+
+
+@dataclass(frozen=True)
+class Beside:
+    """Coarse columns beside the fine ones, and the dummies of both.
+
+    Attributes:
+        columns: the coarse ones. joined: (k,) dummies of fine particles that stand for coarse
+            cells. place: (dim, k) where in the block these lie [m]: mirrored or a period away
+            where beyond another face, too. owner: (m,) coarse particles beside the last m dummies,
+            which lie beyond a face normal to `axis`, (m,).
+    """
+
+    columns: CoarseColumns
+    joined: NDArray[np.int64]
+    place: Array
+    owner: NDArray[np.int64]
+    axis: NDArray[np.int64]
 
 
 @dataclass(frozen=True)
@@ -36,10 +68,13 @@ class Filling:
         position, width: (dim, N) [m]. layer: (N,) number of the layer, negative above z = 0.
         source: (N,) the inner particle that a dummy stands for; the particle itself where real.
         dirichlet: (N,) index in FACES of the Dirichlet face that a dummy lies beyond, 0 if none.
-        surface: the particles of the first layer. above: (count,) the surface particle over each.
+        surface: the particles of the first layer. above: (count,) place in `surface` of the
+            particle over each.
         measure: (N,) what a cell stands for, the length of its ring [m] or 1 [1]; of a dummy that
             of its source, so that mirrored pairs weigh the same, but beyond a Dirichlet face.
-        is_axisymmetric: whether the particles are rings.
+        is_axisymmetric: whether the particles are rings. fine_count, fine_surface: how many
+            particles, and of those at the surface, are in the fine columns; these come first.
+        beside: coarse columns, if there are any.
     """
 
     count: int
@@ -52,6 +87,17 @@ class Filling:
     above: NDArray[np.int64]
     measure: Array
     is_axisymmetric: bool
+    fine_count: int
+    fine_surface: int
+    beside: Beside | None = None
+
+    @property
+    def fine_numbers(self) -> NDArray[np.int64] | slice:
+        """The particles of the fine columns and their dummies."""
+        if self.beside is None:
+            return slice(None)
+        last = self.position.shape[1] - self.beside.owner.size
+        return np.concatenate([np.arange(self.fine_count), np.arange(self.count, last)])
 
     @property
     def depth(self) -> Array:
@@ -91,7 +137,60 @@ def fill(
     kinds = {LEFT: left or sides, RIGHT: right or sides, FRONT: sides, BACK: sides}
     if layers.geometry.is_axisymmetric:
         kinds[LEFT] = FREE
-    kinds[SURFACE] = surface
+    kinds |= {SURFACE: surface, BOTTOM: bottom}
+    real, dummies = _fine_cells(layers, kinds)
+    count = fine_count = layers.fine_count
+    surface_cells = np.arange(int(np.prod(layers.columns[:, 0])))
+    above = _above(layers, np.concatenate([one["position"][:-1] for one in real], axis=1))
+    fine_surface = surface_cells.size
+
+    # coarse columns: their cells after those of the fine ones, and so with the dummies
+    columns = CoarseColumns(layers, count) if layers.beside else None
+    owner = axis = np.empty(0, np.int64)
+    if columns is not None:
+        count += columns.count
+        cells, over = _coarse_cells(columns)
+        outside, owner, axis = _coarse_dummies(columns, kinds)
+        real, dummies = [*real, cells], [*dummies, outside]
+        above = np.concatenate([above, fine_surface + over])
+        surface_cells = np.concatenate([surface_cells, fine_count + np.unique(over)])
+    merged = {
+        key: np.concatenate([block[key] for block in real + dummies], axis=-1) for key in real[0]
+    }
+    source = merged["source"].astype(np.uint32)
+    measure = layers.geometry.measure(merged["position"])
+    keeps_own = (merged["dirichlet"] > 0) | merged["joined"]
+    measure = np.where(keeps_own, measure, measure[source])
+    beside = None
+    if columns is not None:
+        joined = np.flatnonzero(merged["joined"])
+        beside = Beside(columns, joined, merged["place"][:, joined], owner, axis)
+    return Filling(
+        count=count,
+        position=np.ascontiguousarray(merged["position"]),
+        width=np.ascontiguousarray(merged["width"]),
+        layer=merged["layer"],
+        source=source,
+        dirichlet=merged["dirichlet"].astype(np.uint8),
+        surface=surface_cells,
+        above=above,
+        measure=measure,
+        is_axisymmetric=layers.geometry.is_axisymmetric,
+        fine_count=fine_count,
+        fine_surface=fine_surface,
+        beside=beside,
+    )
+
+
+def _fine_cells(
+    layers: Layers, kinds: dict[str, str]
+) -> tuple[list[dict[str, NDArray[Any]]], list[dict[str, NDArray[Any]]]]:
+    """Particles of the fine columns and their dummies, layer after layer."""
+    # the fine columns end where coarse ones begin
+    kinds = dict(kinds)
+    for ends, beside in zip(LATERAL, layers.beside, strict=False):
+        kinds |= {end: JOINED for end, widths in zip(ends, beside, strict=True) if widths.size}
+    surface, bottom = kinds[SURFACE], kinds[BOTTOM]
     total = layers.thickness.size
     starts = np.concatenate([[0], np.cumsum(np.prod(layers.columns, axis=0))])
     # layers of the extended lattice, from the uppermost dummies down to the lowest
@@ -111,26 +210,75 @@ def fill(
         is_real = np.logical_and(block["real"], 0 <= number < total)
         real.append({key: value[..., is_real] for key, value in block.items()})
         dummies.append({key: value[..., ~is_real] for key, value in block.items()})
-    merged = {
-        key: np.concatenate([block[key] for block in real + dummies], axis=-1) for key in real[0]
+    return real, dummies
+
+
+def _coarse_cells(columns: CoarseColumns) -> tuple[dict[str, NDArray[Any]], NDArray[np.int64]]:
+    """Particles of the coarse columns, and which of those at the surface is over each."""
+    position, count = columns.positions(), columns.count
+    at_surface = columns.number[0][columns.number[0] != NONE].size
+    cells = _block(position, columns.widths(), columns.cells[-1], columns.first + np.arange(count))
+    return cells, np.arange(count) % at_surface
+
+
+def _coarse_dummies(
+    columns: CoarseColumns, kinds: dict[str, str]
+) -> tuple[dict[str, NDArray[Any]], NDArray[np.int64], NDArray[np.int64]]:
+    """Dummies beyond the faces of coarse cells, one for each, the cells and the axes."""
+    position, width, layer = columns.positions(), columns.widths(), columns.cells[-1]
+    dimension, total = position.shape[0], columns.layers.thickness.size
+    blocks, owners, axes = [], [], []
+    for face, (axis, end) in ENDS.items():
+        axis %= dimension
+        # faces of the block that it has, and beyond which something lies
+        if face not in faces_of(dimension) or kinds[face] == FREE:
+            continue
+        # the array of cells has the layer first, the surface its upper end
+        along = columns.array_axis(axis, dimension)
+        place_along = -end if axis < dimension - 1 else end - 1
+        cells = np.asarray(columns.number.take(place_along, axis=along))
+        cells = cells[cells != NONE] - columns.first
+        # mirrored
+        place = position[:, cells].copy()
+        place[axis] += (1.0 if end else -1.0) * width[axis, cells]
+        number = layer[cells] if axis < dimension - 1 else np.full(cells.size, -1)
+        if axis == dimension - 1 and not end:
+            number = np.full(cells.size, total)
+        is_given = kinds[face] == DIRICHLET
+        blocks.append(
+            _block(
+                place,
+                width[:, cells],
+                number,
+                columns.first + cells,
+                FACES.index(face) if is_given else 0,
+            )
+        )
+        owners.append(columns.first + cells)
+        axes.append(np.full(cells.size, axis))
+    merged = {key: np.concatenate([block[key] for block in blocks], axis=-1) for key in blocks[0]}
+    return merged, np.concatenate(owners), np.concatenate(axes)
+
+
+def _block(
+    position: Array,
+    width: Array,
+    layer: NDArray[np.int64],
+    source: NDArray[np.int64],
+    dirichlet: int = 0,
+) -> dict[str, NDArray[Any]]:
+    """Cells of coarse columns, or their dummies, with what `_layer` gives others."""
+    count = layer.size
+    return {
+        "position": position,
+        "width": width,
+        "layer": layer,
+        "source": source,
+        "dirichlet": np.full(count, dirichlet),
+        "real": np.ones(count, bool),
+        "joined": np.zeros(count, bool),
+        "place": position,
     }
-    count = layers.particle_count
-    source = merged["source"].astype(np.uint32)
-    surface_count = int(starts[1])
-    measure = layers.geometry.measure(merged["position"])
-    measure = np.where(merged["dirichlet"] > 0, measure, measure[source])
-    return Filling(
-        count=count,
-        position=np.ascontiguousarray(merged["position"]),
-        width=np.ascontiguousarray(merged["width"]),
-        layer=merged["layer"],
-        source=source,
-        dirichlet=merged["dirichlet"].astype(np.uint8),
-        surface=np.arange(surface_count),
-        above=_above(layers, merged["position"][:-1, :count]),
-        measure=measure,
-        is_axisymmetric=layers.geometry.is_axisymmetric,
-    )
 
 
 def _inside(number: int, total: int, *, is_periodic: bool) -> int:
@@ -162,13 +310,17 @@ def _layer(
     z = _height(layers, number, inside, is_periodic=kinds[SURFACE] == PERIODIC)
     is_uniform = np.ptp(layers.thickness) <= 1e-9 * layers.thickness[0]
     beyond = GHOSTS if is_uniform else GRADED_GHOSTS
-    axes, sources, reals, widths, holders = [], [], [], [], []
+    axes, sources, reals, widths, holders, joins, places = [], [], [], [], [], [], []
     # along each axis: places, widths, real or not, source, and the face that gives the temperature
-    for axis, (lower, _upper) in enumerate(layers.bounds):
+    for axis, (lower, _upper) in enumerate(layers.fine_bounds):
         low, high = LATERAL[axis]
         columns = int(layers.columns[axis, inside])
         width = float(layers.column_width()[axis, inside])
         ghosts = [0 if kinds[end] == FREE else beyond for end in (low, high)]
+        # as far as there are coarse columns
+        for end, kind in enumerate((kinds[low], kinds[high])):
+            if kind == JOINED:
+                ghosts[end] = min(beyond, int(layers.beside[axis][end].sum() / width))
         index = np.arange(-ghosts[0], columns + ghosts[1])
         axes.append(lower + (index + 0.5) * width)
         reals.append((index >= 0) & (index < columns))
@@ -181,6 +333,11 @@ def _layer(
             holder[index >= columns] = FACES.index(high)
         holders.append(holder)
         widths.append(width)
+        # beside coarse columns a dummy stands for what lies where it lies
+        join = (index < 0) & (kinds[low] == JOINED)
+        join |= (index >= columns) & (kinds[high] == JOINED)
+        joins.append(join)
+        places.append(np.where(join, axes[-1], lower + (sources[-1] + 0.5) * width))
 
     # all combinations of x (and y) in this layer
     shape = tuple(axis.size for axis in axes)
@@ -188,15 +345,19 @@ def _layer(
     is_real = np.ones(shape, bool)
     source = np.zeros(shape, np.int64)
     dirichlet = np.full(shape, face)
+    joined = np.zeros(shape, bool)
+    place = np.empty(position.shape)
     for axis, values in enumerate(axes):
         view = [1] * len(shape)
         view[axis] = -1
         position[axis] = np.broadcast_to(values.reshape(view), shape).ravel()
+        place[axis] = np.broadcast_to(places[axis].reshape(view), shape).ravel()
         is_real &= reals[axis].reshape(view)
+        joined |= joins[axis].reshape(view)
         # a dummy in a corner belongs to the face of the layer, then to that of x, then of y
         dirichlet = np.where(dirichlet == 0, holders[axis].reshape(view), dirichlet)
         source = source * int(layers.columns[axis, inside]) + sources[axis].reshape(view)
-    position[-1] = z
+    position[-1], place[-1] = z, layers.center()[inside]
     width = np.broadcast_to(
         np.array([*widths, layers.thickness[inside]])[:, None], position.shape
     ).copy()
@@ -207,6 +368,8 @@ def _layer(
         "layer": np.full(position.shape[1], number),
         "source": start + source.ravel(),
         "dirichlet": dirichlet.ravel(),
+        "joined": (joined & (dirichlet == 0)).ravel(),
+        "place": place,
     }
 
 
@@ -219,7 +382,7 @@ def _reflected(index: NDArray[np.int64], count: int) -> NDArray[np.int64]:
 def _above(layers: Layers, lateral: Array) -> NDArray[np.int64]:
     """Surface particle over each particle: the cell of the first layer that holds its x (and y)."""
     found = np.zeros(lateral.shape[1], np.int64)
-    for axis, (lower, _upper) in enumerate(layers.bounds):
+    for axis, (lower, _upper) in enumerate(layers.fine_bounds):
         columns = int(layers.columns[axis, 0])
         width = float(layers.column_width()[axis, 0])
         # number of the cell of the first layer, the last axis fastest

@@ -3,7 +3,8 @@
 Uniform: layers of one spacing. Graded: fine layers down to `fine_depth`, then layers that grow by
 1/ratio up to `coarsest`, the last one cut to the depth of the domain [Demuth2020, Section 4.1 and
 eqs. (60)-(63); printed from the bottom upward: 1 um times (7/9)^k]. A layer of thickness d holds
-n = round(width/d) columns of equal width, so that a whole number fills the period exactly.
+n = round(width/d) columns of equal width, so that a whole number fills the period exactly; columns
+beside `fine_width` grow outward in the same way, in all layers alike.
 """
 
 from __future__ import annotations
@@ -36,12 +37,19 @@ class Lattice(Model):
         description="depth of the layers of finest spacing (graded); default: the larger of the "
         "expected melt depth plus two support radii and the laser's absorption zone",
     )
+    fine_width: Size | None = Field(
+        default=None,
+        description="from the middle or the axis outward, of the columns of finest spacing "
+        "(graded, 2-D and 3-D), beside which columns grow; default: where the light of a spot that "
+        "rests falls or melts with solid beside it, else all columns",
+    )
     coarsest: Size = Field(
-        default=1e-6, description="thickness at which layers stop growing (graded)"
+        default=1e-6, description="thickness at which layers and columns stop growing (graded)"
     )
     ratio: Annotated[float, Field(gt=0.5, lt=1.0)] = Field(
         default=7.0 / 9.0,
-        description="of the thickness of a layer to that of the one below (graded)",
+        description="of the thickness of a layer to that of the one below, and of the width of a "
+        "column to that of the next one outward (graded)",
     )
     kernel: KernelName = Field(
         default="quintic-spline", description="by which neighbors are weighted"

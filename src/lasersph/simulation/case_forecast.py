@@ -26,7 +26,8 @@ class Forecast:
         pairs: estimate, of what is active.
         memory: peak [bytes].
         spacing: finest, as used [m].
-        fine_depth: of the finest layers [m].
+        fine_depth: of the finest layers [m]. fine_width: from the middle or the axis, of the
+            finest columns [m], None where columns do not grow.
         limits: time-step limits [s] while the light is on.
         binding: name of the smallest of them.
         steps: estimate.
@@ -54,6 +55,7 @@ class Forecast:
     absorption_length: float | None
     penetration: float | None
     warnings: tuple[str, ...] = field(default=())
+    fine_width: float | None = None
     flow: FlowForecast | None = None
     heating: HeatingForecast | None = None
     threads: int = 1
@@ -80,11 +82,7 @@ def _rows(expected: Forecast) -> list[tuple[str, str]]:
         *([] if case.laser is None else light_rows(case.laser)),
         *([] if expected.heating is None else heating_rows(case, expected.heating)),
         ("particles", f"{expected.particles} in {expected.layers} layers"),
-        (
-            "finest spacing",
-            f"{format_quantity(expected.spacing, 'm')} in the top "
-            f"{format_quantity(expected.fine_depth, 'm')}",
-        ),
+        ("finest spacing", _finest(expected)),
         ("memory", ", ".join([f"about {in_words(expected.memory)}", *there])),
     ]
 
@@ -117,6 +115,16 @@ def _rows(expected: Forecast) -> list[tuple[str, str]]:
             cells = f"{length / expected.spacing:.2g} spacings"
             rows.append((name, f"{format_quantity(length, 'm')}, {cells}"))
     return rows
+
+
+def _finest(expected: Forecast) -> str:
+    """Where particles are finest."""
+    depth = format_quantity(expected.fine_depth, "m")
+    text = f"{format_quantity(expected.spacing, 'm')} in the top {depth}"
+    if expected.fine_width is None:
+        return text
+    middle = "axis" if expected.case.geometry.is_axisymmetric else "middle"
+    return f"{text}, out to {format_quantity(expected.fine_width, 'm')} from the {middle}"
 
 
 def _losses(case: Case) -> str:

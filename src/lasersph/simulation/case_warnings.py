@@ -18,7 +18,7 @@ from lasersph.case.solver_choice import (
 from lasersph.input import format_quantity
 from lasersph.materials.caloric_curve import CaloricCurve
 from lasersph.output.settings import DEFAULT_COUNT
-from lasersph.particles.layers import Layers
+from lasersph.particles.layers import LEAST_BESIDE, Layers
 from lasersph.physics.ablation_estimates import PHASE_EXPLOSION
 from lasersph.physics.electron_lattice import SLOWEST, coupling_time, electrons_of
 from lasersph.simulation.heating import HeatingForecast
@@ -56,6 +56,12 @@ def run_warnings(
         yield (
             f"spacing {format_quantity(case.particles.spacing, 'm')} is rounded to "
             f"{format_quantity(spacing, 'm')} so that whole cells fill the domain"
+        )
+    if case.particles.fine_width is not None and not layers.beside:
+        yield (
+            f"particles.fine_width of {format_quantity(case.particles.fine_width, 'm')} changes "
+            "nothing: less of the block lies beside it than coarse columns need, "
+            f"{LEAST_BESIDE:g} support radii of the thickest layer"
         )
     if case.laser is not None and heating is not None:
         yield from _resolution(case, layers)

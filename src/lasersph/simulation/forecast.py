@@ -48,6 +48,7 @@ def forecast(
         memory=memory_of(case.solver, count, pairs),
         spacing=spacing,
         fine_depth=float(layers.thickness[is_fine].sum()),
+        fine_width=layers.fine_bounds[0][1] if layers.beside else None,
         limits=steps.limits,
         binding=binding_limit(steps.limits)[0],
         steps=steps.steps,
@@ -67,8 +68,11 @@ def active_pairs(recipe: Recipe[Any, Any]) -> float:
     case, layers = recipe.case, recipe.layers
     # Heat reaches only a part of the block; in it each particle has the neighbors of a lattice.
     share = active_share(case, case.particles.support_over_spacing * layers.spacing)
-    neighbors = neighbor_count(case.particles, case.solver.dimensions)
-    return share * layers.particle_count * neighbors
+    dimensions = case.solver.dimensions
+    neighbors = neighbor_count(case.particles, dimensions)
+    # a cell of coarse columns has one beyond each of its faces
+    coarse = 2.0 * dimensions * (layers.particle_count - layers.fine_count)
+    return share * (layers.fine_count * neighbors + coarse)
 
 
 def spans_of(recipe: Recipe[Any, Any], steps: StepForecast, threads: int) -> tuple[Span, ...]:

@@ -8,6 +8,7 @@ import numpy as np
 
 from lasersph.analytic.melt_depth import MeltEstimate, Vapor, melt_depth
 from lasersph.case import Case
+from lasersph.case.size import has_spot_in_the_middle
 from lasersph.irradiation.light import COLDEST, HOTTEST
 from lasersph.materials.caloric_curve import CaloricCurve
 from lasersph.particles.layers import Layers, stack
@@ -17,6 +18,14 @@ ESTIMATE_COLUMNS = 8
 LEAST_FINE_LAYERS = 8
 """Finest layers at least. Geometry: two supports of 3.75 spacings, so that surface and the first
 graded layer do not meet."""
+WIDTH_COLUMNS = 24
+"""Columns of the estimate of the radius of the melt. Forecast: it tells the fine width."""
+MOST_RADII = 4.0
+"""Radii of the light and of the heat around it over which it is made. Forecast: melt ends within
+one, the bound only keeps columns narrow in wide blocks."""
+WIDENING = 1.25
+"""Radius of a pool over that of the estimate, which leaves out how the flow widens it. Forecast:
+a pool that grows further ends its run with the width to give."""
 ABSORPTION_LENGTHS = 12.0
 """Depth of the finest layers in units of 1/alpha, at least. Accuracy: exp(-12) = 6e-6 of the light
 goes deeper."""
@@ -30,15 +39,61 @@ def caloric_curve(case: Case) -> CaloricCurve:
 
 
 def lay_out(case: Case, melt: Callable[[], MeltEstimate | None] | None = None) -> Layers:
-    """Layers of the case; where graded and not given, the fine depth follows from an estimate.
+    """Layers of the case; where graded and not given, depth and width of the finest particles
+    follow from an estimate.
 
     Args:
         melt: the estimate, where it is known already.
     """
-    fine = case.particles.fine_depth or 0.0
-    if case.particles.arrangement == "graded" and not fine:
-        fine = fine_depth(case, melt() if melt is not None else expected_melt(case))
-    return stack(case.domain, case.particles, case.geometry, fine)
+    lattice = case.particles
+    depth, width = lattice.fine_depth or 0.0, lattice.fine_width or np.inf
+    if lattice.arrangement == "graded":
+        if lattice.fine_depth is None:
+            depth = fine_depth(case, melt() if melt is not None else expected_melt(case))
+        if lattice.fine_width is None:
+            width = fine_width(case, depth)
+    return stack(case.domain, lattice, case.geometry, depth, width)
+
+
+def fine_width(case: Case, fine_depth: float) -> float:
+    """How far from the middle or the axis columns are finest [m]: where the light of a resting spot
+    falls and melts, with solid beside it; infinite where that is not so or not known.
+
+    Args:
+        fine_depth: of the finest layers [m].
+    """
+    laser = case.laser
+    if laser is None or not has_spot_in_the_middle(case):
+        return np.inf
+    radius = 0.5 * laser.spot_fluence.diameter
+    melt = melt_radius(case, radius)
+    if melt == 0.0:
+        return np.inf
+    # a pool that flows keeps a margin to the coarse columns, and one support more
+    lattice = case.particles
+    ratio = lattice.support_over_spacing
+    layers = stack(case.domain, lattice, case.geometry, fine_depth)
+    solid = layers.solid_margin(ratio) + ratio * layers.spacing
+    return max(radius, WIDENING * melt) + solid
+
+
+def melt_radius(case: Case, radius: float) -> float:
+    """How far from its center the light of a spot melts a metal [m], 0 where it does not.
+
+    Columns lie side by side in a plane, which loses less heat than a disk.
+
+    Args:
+        radius: of the light [m].
+    """
+    # columns as far as heat goes, or as the block is wide
+    farthest = max(max(-low, high) for low, high in case.domain.lateral(case.geometry))
+    heat = float(np.sqrt(case.material.diffusivity_reference * case.end_of_pulse))
+    width = min(farthest, MOST_RADII * (radius + heat)) / WIDTH_COLUMNS
+    found = _estimate(case, WIDTH_COLUMNS, width)
+    if found.surface is None or found.depth == 0.0:
+        return 0.0
+    molten = np.flatnonzero(found.surface.depth.max(axis=0) > 0.0)
+    return float(molten[-1] + 1) * width
 
 
 def fine_depth(case: Case, melt: MeltEstimate | None) -> float:
@@ -74,16 +129,24 @@ def expected_heating(case: Case, vapor: Vapor | None = None) -> MeltEstimate | N
     if laser is None:
         return None
 
+    # A pattern needs columns from a bright line to a dark one, half a period apart; a spot only the
+    # one in its center.
+    width = case.domain.width
+    if width is not None and laser.is_even and laser.beam.is_pattern:
+        return _estimate(case, ESTIMATE_COLUMNS, 0.5 * width / ESTIMATE_COLUMNS, vapor)
+    return _estimate(case, 1, None, vapor)
+
+
+def _estimate(
+    case: Case, columns: int, column_width: float | None, vapor: Vapor | None = None
+) -> MeltEstimate:
+    """Heat of the light in columns from its center outward; one alone has the peak fluence."""
+    laser = case.laser
+    assert laser is not None
     # Where pauses are jumped over, each pulse meets metal that is cold again.
     if case.pause != "compute":
         laser = laser.first_pulse
 
-    # A pattern needs columns from a bright line to a dark one, half a period apart; a spot only the
-    # one in its center.
-    width = case.domain.width
-    columns, column_width = 1, None
-    if width is not None and laser.is_even and laser.beam.is_pattern:
-        columns, column_width = ESTIMATE_COLUMNS, 0.5 * width / ESTIMATE_COLUMNS
     fluence = np.array([laser.peak_fluence])
     if column_width is not None:
         # Mean energy per area in each column; divided by the share that is delivered, so that a

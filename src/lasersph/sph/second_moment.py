@@ -57,6 +57,8 @@ def layer_factors(
     layers: Layers, kernel: Kernel, support_ratio: float, mean: Callable[[float, float], float]
 ) -> LayerFactors:
     """Solve for the factors of all layers, mirrored beyond surface and bottom."""
+    # coarse columns have weights of their own
+    layers = layers.fine_only if layers.beside else layers
     # factors of the short stack, in which all layers of different surroundings occur
     short, index = _shortened(layers)
     lattice = _Lattice(short, kernel, support_ratio, mean)

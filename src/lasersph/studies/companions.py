@@ -148,6 +148,9 @@ def _coarser_values(case: Case, factor: float) -> Iterator[tuple[str, float]]:
     if lattice.arrangement == "graded":
         yield "particles.coarsest", factor * lattice.coarsest
         yield "particles.ratio", lattice.ratio**factor
+        # solid beside a pool takes as many spacings
+        if lattice.fine_width is not None:
+            yield "particles.fine_width", factor * lattice.fine_width
     yield "particles.spacing", factor * lattice.spacing
     if case.time.step is not None and not case.solver.is_explicit:
         yield "time.step", factor * case.time.step

@@ -13,7 +13,6 @@ from math import floor
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from lasersph.compute.array_types import Array, Rows
 from lasersph.compute.backend import Backend
@@ -80,20 +79,19 @@ class OwnColumns:
     """Columns whose particles keep to them, and of which one particle each lies at the surface.
 
     Args:
-        rows: numbers of the particles at the surface, by column. area: (n,) of their columns seen
-            from above [m^(d-1)], 0 of all others.
+        columns: their number; the particles at the surface come first. area: (n,) of columns seen
+            from above [m^(d-1)], coarse ones beside them included, 0 of all that lies deeper.
 
     Attributes:
         area: (n,) true one of the surface [m^(d-1)].
     """
 
-    def __init__(self, backend: Backend, rows: NDArray[np.int64], area: Array) -> None:
-        self.backend, self.count = backend, rows.size
-        self.rows: Rows = backend.asarray(rows, "index")
+    def __init__(self, backend: Backend, columns: int, area: Array) -> None:
+        self.backend, self.count = backend, columns
         self._from_above, self.area = area, backend.zeros(area.shape[0])
-        self._length_ratio = backend.asarray(np.ones(rows.size))
-        self._mean = backend.zeros(rows.size)
-        self.incline(self._length_ratio)
+        self._length_ratio = backend.asarray(np.ones(columns))
+        self._mean = backend.zeros(columns)
+        backend.copy(area, self.area)
 
     def incline(self, length_ratio: Array) -> None:
         """Take the true length of the surface over that seen from above, (columns,)."""
@@ -132,6 +130,19 @@ class SurfaceColumns:
         self._sums = {side: tuple(backend.zeros(columns) for _ in "12") for side in ("", "_right")}
         self._ends: list[tuple[Array, Array, NeighborList]] = []
         self._values = backend.zeros(0)
+
+    def keep(self, numbers: np.ndarray, area: Array) -> None:
+        """Let particles at the surface beside the columns, which rest, stand for their areas.
+
+        Args:
+            numbers: (k,) of them. area: (n,) of all on the lattice [m].
+        """
+        if not numbers.size:
+            return
+        backend, rows = self.backend, self.backend.asarray(numbers, "index")
+        found = backend.zeros(numbers.size)
+        backend.gather(area, rows, found)
+        backend.scatter(found, rows, self.area)
 
     def find(self, position: Array, rows: Rows, length_ratio: Array | None = None) -> None:
         """Let the particles `rows` at their positions (2, n) [m] share the surface.

@@ -279,8 +279,9 @@ class Recession:
     """
 
     def __init__(self, particles: Particles, filling: Filling, density: float) -> None:
-        backend, count = particles.backend, particles.count
-        self.particles, columns = particles, filling.surface.size
+        backend = particles.backend
+        # coarse columns stay as cold as not to evaporate
+        self.particles, columns, count = particles, filling.fine_surface, filling.fine_count
         self._rows = whole_rows(filling.position[:-1, :count], filling.layer[:count], columns)
         number = np.arange(self._rows * columns)
         below = np.minimum(number + columns, number[-1] - columns + 1 + number % columns)

@@ -73,13 +73,12 @@ def test_solid_rests():
 
 
 def test_own_columns():
-    """Areas with the slope; means are those of the uppermost particle."""
+    """Areas with the slope, of coarse columns as they are; means are of the uppermost particle."""
     backend = compute.cpu(threads=1)
-    area = backend.asarray([2.0, 4.0, 0.0, 0.0])
-    columns = OwnColumns(backend, np.array([0, 1]), area)
-    assert np.asarray(columns.area).tolist() == [2.0, 4.0, 0.0, 0.0]
+    area = backend.asarray([2.0, 4.0, 0.0, 5.0])
+    columns = OwnColumns(backend, 2, area)
     columns.incline(backend.asarray([1.0, 1.5]))
-    assert np.asarray(columns.area).tolist() == [2.0, 6.0, 0.0, 0.0]
+    assert np.asarray(columns.area).tolist() == [2.0, 6.0, 0.0, 5.0]
     flux = backend.asarray([10.0, 20.0, 7.0, 7.0])
     assert np.asarray(columns.mean_from_above(flux)).tolist() == [10.0, 30.0]
 

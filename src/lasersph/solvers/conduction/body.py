@@ -27,6 +27,7 @@ from lasersph.particles.particles import Particles
 from lasersph.particles.support import arithmetic, graded
 from lasersph.physics.phase_change import state
 from lasersph.solvers.conduction.walls import walls_of
+from lasersph.sph.face_weights import PairRows, pairs_beside, without_joined
 from lasersph.sph.kernels import Kernel, kernel
 from lasersph.sph.laplacian import layered_weight, weight
 from lasersph.sph.rings import ring_weight
@@ -51,7 +52,8 @@ class Body:
             (n,) sums over the pairs with Dirichlet faces of weight times P_w and times T_w.
             wall_power: (n,) power of prescribed fluxes [W per (3 - d) lengths].
         area: (n,) exposed cross-section of surface particles [m^(d-1)], 0 for all others.
-        tables: nodes of the caloric curve as tables of the backend.
+        tables: nodes of the caloric curve as tables of the backend. free: (n,) 1 for particles
+            whose pairs may be found anew, 0 for coarse columns and what they touch; None for all.
     """
 
     backend: Backend
@@ -67,6 +69,7 @@ class Body:
     area: Array
     tables: dict[str, Array]
     surroundings: Surroundings
+    free: Array | None = None
 
     @property
     def count(self) -> int:
@@ -96,17 +99,26 @@ def assemble(
     ends = {face: KINDS[boundaries.kind_of(face)] for face in PLANE}
     filling = fill(layers, sides=KINDS[boundaries.sides], **ends)
     weighing = weighing_of(lattice, layers, use_second_moment=use_second_moment)
-    is_axisymmetric = layers.geometry.is_axisymmetric
-    neighbors, row, weights = _weights(backend, weighing, filling, is_axisymmetric=is_axisymmetric)
+    neighbors, pairs = _weights(backend, weighing, filling)
+    crossing = None
+    if filling.beside is not None:
+        pairs, crossing = pairs_beside(filling, pairs)
 
     # faces: A, sum of A P_w, sum of A T_w and b; their pairs weigh 0 from then on
-    walls = walls_of(
-        boundaries, curve, layers, filling, weights, row, backend.to_host(neighbors.neighbor)
-    )
+    row, neighbor, weights = pairs
+    walls = walls_of(boundaries, curve, layers, filling, weights, row, neighbor)
     count = filling.count
+    free = None
+    if crossing is not None:
+        is_free = np.arange(count) < filling.fine_count
+        is_free[crossing.row] = False
+        free = backend.asarray(is_free.astype(float))
+        pairs = without_joined(filling, pairs, crossing)
+        row, weights = pairs.row, pairs.weight
+        neighbors = _listed(backend, weighing, filling, pairs)
 
     # operator of the pairs between particles, sum_j g_ij (P_j - P_i) - A_i P_i
-    pairs = PairOperator(
+    operator = PairOperator(
         neighbors=neighbors.without_ghosts(backend, backend.asarray(filling.source, "index")),
         weights=backend.asarray(weights),
         boundary_coefficient=backend.asarray(walls.coefficient),
@@ -130,13 +142,14 @@ def assemble(
         material=material,
         curve=curve,
         light=LayeredLight(backend, laser, material, filling),
-        pairs=pairs,
+        pairs=operator,
         wall_flow=backend.asarray(walls.flow),
         wall_heat=backend.asarray(walls.heat),
         wall_power=backend.asarray(walls.power),
         area=backend.asarray(area),
         tables={name: backend.asarray(nodes) for name, nodes in curve.tables.items()},
         surroundings=boundaries.surroundings(material, curve.initial_temperature),
+        free=free,
     )
     body.update_temperature()
     return body
@@ -178,33 +191,55 @@ def _equal_factors(layer: NDArray[np.int64]) -> tuple[NDArray[np.float64], NDArr
 
 
 def _weights(
-    backend: Backend, weighing: Weighing, filling: Filling, *, is_axisymmetric: bool
-) -> tuple[NeighborList, NDArray[np.int64], NDArray[np.float64]]:
-    """All pairs with dummies, and on the host the row and the weight of each pair."""
-    # g_ij of all particles with their dummies
-    normal, lateral = weighing.factors(filling.layer)
+    backend: Backend, weighing: Weighing, filling: Filling
+) -> tuple[NeighborList, PairRows]:
+    """Pairs of the fine particles with dummies: the list, and rows and weights on the host."""
+    # fine particles and their dummies
+    seen = filling.fine_numbers
+    layer = filling.layer[seen]
+
+    # g_ij of all of them
+    normal, lateral = weighing.factors(layer)
     fields = {
-        "V": backend.asarray(filling.volume),
-        "layer": backend.asarray(filling.layer),
+        "V": backend.asarray(filling.volume[seen]),
+        "layer": backend.asarray(layer),
         "normal": backend.asarray(normal),
         "lateral": backend.asarray(lateral),
     }
     neighbors = find_neighbors(
         backend,
-        backend.asarray(filling.position),
-        backend.asarray(weighing.ratio * filling.width[-1]),
-        filling.count,
+        backend.asarray(filling.position[:, seen]),
+        backend.asarray(weighing.ratio * filling.width[-1, seen]),
+        filling.fine_count,
         kernel=weighing.kernel,
         mean=weighing.mean,
     )
     weights = backend.zeros(backend.to_host(neighbors.neighbor).size)
     backend.pair_values(weighing.function, neighbors, fields, weights, **weighing.constants)
     # pairs of rings pass on heat through the mean ring
-    if is_axisymmetric:
-        rings = {"g_ij": weights, "measure": backend.asarray(filling.measure)}
+    if filling.is_axisymmetric:
+        rings = {"g_ij": weights, "measure": backend.asarray(filling.measure[seen])}
         backend.pair_values(ring_weight, neighbors, rings, weights)
 
     # row of each pair, on the host, where faces are assembled
     row_start = backend.to_host(neighbors.row_start).astype(np.int64)
-    row = np.repeat(np.arange(filling.count), np.diff(row_start))
-    return neighbors, row, np.array(backend.to_host(weights))
+    row = np.repeat(np.arange(filling.fine_count), np.diff(row_start))
+    neighbor = backend.to_host(neighbors.neighbor)
+    if filling.beside is not None:
+        neighbor = np.arange(filling.position.shape[1])[seen][neighbor]
+    return neighbors, PairRows(row, neighbor, np.array(backend.to_host(weights)))
+
+
+def _listed(
+    backend: Backend, weighing: Weighing, filling: Filling, pairs: PairRows
+) -> NeighborList:
+    """Pairs of the whole body as a list."""
+    start = np.concatenate([[0], np.cumsum(np.bincount(pairs.row, minlength=filling.count))])
+    return NeighborList(
+        backend.asarray(start, "offset"),
+        backend.asarray(pairs.neighbor, "index"),
+        backend.asarray(filling.position),
+        backend.asarray(weighing.ratio * filling.width[-1]),
+        weighing.kernel,
+        weighing.mean,
+    )

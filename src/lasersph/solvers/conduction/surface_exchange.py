@@ -77,9 +77,9 @@ class SurfaceExchange:
         self._set_surface(*self._lattice)
         self._columns = None
 
-    def use_columns(self, columns: SurfaceColumns | OwnColumns) -> None:
-        """Let the surface be that of the particles that lie at it now (2-D)."""
-        self._set_surface(columns.rows, columns.area)
+    def use_columns(self, columns: SurfaceColumns | OwnColumns, rows: Rows) -> None:
+        """Let the surface be that of the particles `rows` that lie at it now (2-D)."""
+        self._set_surface(rows, columns.area)
         self._columns = columns
 
     def _set_surface(self, rows: Rows, area: Array) -> None:

@@ -37,9 +37,25 @@ class PoolTooDeep(StepFailed):
     """The melt reaches layers that are too coarse for its flow."""
 
 
+class PoolTooWide(StepFailed):
+    """The melt comes too close to columns that are too coarse for its flow."""
+
+
 def fluid_depth(x, fluid):
     """Depth of a fluid particle below the top of the layers [m]."""
     return -fluid * x[-1]
+
+
+def fluid_reach(x, fluid, low, high):
+    """How far a fluid particle is beyond a lower, and beyond an upper end along x [m]."""
+    if fluid > 0.0:
+        return low - x[0], x[0] - high
+    return low - high, low - high
+
+
+def resting(mark, free):
+    """A mark where pairs may be found anew, else 0."""
+    return mark * free
 
 
 class PoolDomain:
@@ -47,8 +63,9 @@ class PoolDomain:
 
     Attributes:
         box: lower and upper end of each axis [m].
-        spacing, support: of the particles that move [m]. block_layers: layers of the
-            present block but for its margin. volume: (n,) of the particles [m^2].
+        layers: of the fine columns. spacing, support: of the particles that move [m].
+            block_layers: layers of the present block but for its margin. volume: (n,) of the
+            particles [m^2].
     """
 
     def __init__(
@@ -61,8 +78,10 @@ class PoolDomain:
         potential: Callable[[np.ndarray], np.ndarray],
         enthalpy: Callable[[np.ndarray], np.ndarray],
         volume: Array,
+        free: Array | None = None,
     ) -> None:
-        self.backend, self.layers, self.lattice = backend, layers, lattice
+        self.backend, self.lattice, self._free = backend, lattice, free
+        self.layers, self._ends = layers.fine_only, self._fluid_ends(layers)
         self.conditions, self.surface = conditions, surface
         self.potential, self.enthalpy = potential, enthalpy
         self.volume = volume
@@ -125,7 +144,8 @@ class PoolDomain:
         """Block that holds what flows, with room below it; it grows and never shrinks.
 
         Raises:
-            PoolTooDeep: a particle below the finest layers flows.
+            PoolTooDeep: a particle below the finest layers flows. PoolTooWide: one does close to
+                coarse columns.
         """
         # depth of the deepest particle that flows
         fields = {"x": position, "fluid": kinds.fluid}
@@ -137,6 +157,8 @@ class PoolDomain:
                 f"{format_quantity(self.fine_depth, 'm')}; give "
                 f'particles.fine_depth = "{1.3e9 * deepest:.0f} nm" or more'
             )
+
+        self._refuse_wide(position, kinds)
 
         # another block where it has grown, with resting layers below
         self._grow(deepest)
@@ -162,3 +184,44 @@ class PoolDomain:
             )
         assert self._block is not None
         return self._block
+
+    def keep_resting(self, has_row: Array) -> Array:
+        """Marks (count,) of rows, changed in place: 0 where pairs reach coarse columns, and stay."""
+        if self._free is None:
+            return has_row
+        fields = {"mark": has_row, "free": self.backend.head(self._free, has_row.shape[0])}
+        self.backend.pointwise(resting, fields, has_row)
+        return has_row
+
+    def _fluid_ends(self, layers: Layers) -> tuple[float, float]:
+        """Ends along x within which what flows must stay [m], infinite where no columns are coarse.
+
+        A row whose pairs reach coarse columns stays as it is, so that it must not see what moves.
+        """
+        if not layers.beside:
+            return -np.inf, np.inf
+        (low, high), (below, above) = layers.fine_bounds[0], layers.beside[0]
+        margin = SKIN * layers.solid_margin(self.lattice.weighing.ratio)
+        return (
+            low + margin if below.size else -np.inf,
+            high - margin if above.size else np.inf,
+        )
+
+    def _refuse_wide(self, position: Array, kinds: ParticleKinds) -> None:
+        """Raise PoolTooWide where what flows comes close to coarse columns."""
+        if self._free is None:
+            return
+        low, high = self._ends
+        fields = {"x": position, "fluid": kinds.fluid}
+        out, reduce = (None, None), ("max", "max")
+        beyond = self.backend.pointwise(fluid_reach, fields, out, reduce=reduce, low=low, high=high)
+        if max(beyond) <= 0.0:
+            return
+        x = low - beyond[0] if beyond[0] > 0.0 else high + beyond[1]
+        end = self.box[0][0 if beyond[0] > 0.0 else 1]
+        needed = abs(x) + 1.3 * abs(end - (low if beyond[0] > 0.0 else high))
+        raise PoolTooWide(
+            f"the melt at x = {format_quantity(x, 'm')} flows too close to columns coarser than "
+            f"{format_quantity(self.spacing, 'm')}, which begin at {format_quantity(end, 'm')}; "
+            f'give particles.fine_width = "{1e9 * needed:.0f} nm" or more'
+        )

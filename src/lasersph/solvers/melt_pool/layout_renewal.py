@@ -51,7 +51,7 @@ class LayoutRenewal:
     ) -> None:
         self.body, self.domain, self.kinds, self.pairs = body, domain, kinds, pairs
         self.volume, self.recedes = 0.0, False
-        columns = body.filling.surface.size
+        columns = body.filling.fine_surface
         thickness = domain.layers.thickness
         self._cell = domain.width / columns * float(thickness[0])
         fine = int(np.count_nonzero(thickness <= thickness[0] * (1.0 + 1e-9))) * columns
@@ -124,7 +124,7 @@ class LayoutRenewal:
 
     def _layout(self) -> ReliefLayout:
         domain = self.domain
-        height = domain.surface.heights(self.body.filling.surface.size)
+        height = domain.surface.heights(self.body.filling.fine_surface)
         more = "give a larger particles.fine_depth (of a box domain.depth)"
         try:
             layout = lay_below(domain.layers, height)
@@ -159,5 +159,5 @@ class LayoutRenewal:
         block = domain.block_for(position, self.kinds)
         has_row = backend.zeros(block.count)
         backend.fill(has_row, 1.0)
-        block.find_pairs(position, has_row)
+        block.find_pairs(position, domain.keep_resting(has_row))
         self.pairs.update(block)

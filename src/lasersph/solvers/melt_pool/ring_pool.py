@@ -18,6 +18,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+import numpy as np
+
 from lasersph.solvers.melt_pool.ring_block import RingBlock, RingTangentBlock
 from lasersph.solvers.melt_pool.solver import MeltPool
 from lasersph.solvers.melt_pool.transport import Transport
@@ -36,7 +38,8 @@ class RingPool(MeltPool):
         lattice = self.domain.lattice
         self._lengths = backend.asarray(lattice.geometry.measure(lattice.position))
         self._rest = Ride(backend.zeros(self.position.shape), backend.zeros(count))
-        self._columns = OwnColumns(backend, self.body.filling.surface, self.body.area)
+        self._columns = OwnColumns(backend, self.body.filling.fine_surface, self.body.area)
+        self._at_surface = backend.asarray(self.body.filling.surface, "index")
         self._size_bodies()
 
     def _size_bodies(self) -> None:
@@ -94,10 +97,12 @@ class RingPool(MeltPool):
         if not isinstance(surface, RidingSurface):
             return
         volume = self.particles["volume"]
-        tops = self.backend.asarray(surface.column_tops(self.position, volume))
-        light.stretch(self.position, volume, tops)
+        # columns that are coarse rest
+        tops = np.zeros(self._at_surface.shape[0])
+        tops[: self._columns.count] = surface.column_tops(self.position, volume)
+        light.stretch(self.position, volume, self.backend.asarray(tops))
         self._columns.incline(surface.length_ratio())
-        self.heat.exchange.use_columns(self._columns)
+        self.heat.exchange.use_columns(self._columns, self._at_surface)
 
     def rearrange(self, step: float) -> None:
         """Particles stay even in their columns."""

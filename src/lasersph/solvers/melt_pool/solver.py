@@ -89,10 +89,11 @@ class MeltPool:
             pulse = heat.laser.pulse
             self.pauses = Pauses(heat.body, heat.state, pulse, pause, self.lay_out)
         self.steadiness = Steadiness(settings.steady, domain.width)
-        columns = heat.body.filling.surface.size
+        columns = heat.body.filling.fine_surface
         self.surface_columns = SurfaceColumns(
             backend, count, domain.box[0][0], domain.width / columns, columns
         )
+        self.surface_columns.keep(heat.body.filling.surface[columns:], heat.body.area)
         self.spacing_min = domain.spacing
         self.fluid_count = 0.0
         self._has_moved = False
@@ -279,8 +280,9 @@ class MeltPool:
         fields = {"depth": self._depth, "V": self.particles["volume"]}
         backend.pointwise(lies_at_surface, fields, mark, spacing=self.domain.spacing)
         surface = self.domain.surface
-        columns.find(self.position, backend.rows_where(mark, 1.0), surface.length_ratio())
-        exchange.use_columns(columns)
+        fine = backend.head(mark, self.body.filling.fine_count)
+        columns.find(self.position, backend.rows_where(fine, 1.0), surface.length_ratio())
+        exchange.use_columns(columns, backend.rows_where(mark, 1.0))
         volume = fields["V"] if surface.moves else None
         light.distribute(self.position, self._depth, columns, volume)
 
@@ -343,7 +345,7 @@ class MeltPool:
         now = block.find_near_fluid(position, self.kinds.fluid)
         fields = {"a": now, "b": block.find_near_fluid(self.position, self.kinds.before)}
         self.backend.pointwise(either, fields, now)
-        return now
+        return self.domain.keep_resting(now)
 
     def _measure(self) -> None:
         """Measures of the step, for observers."""

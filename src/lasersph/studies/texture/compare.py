@@ -150,7 +150,7 @@ class _Alignment:
             "fluence_factor": relief.tells_fluence,
             "shift_y_m": is_map and relief.is_spot,
         }
-        names += [name for name, is_told in meaning.items() if is_known]
+        names += [name for name, is_told in meaning.items() if is_told]
         noise = max(point_noise(surface.z), 1e-6 * float(np.std(z - basis @ (basis.T @ z))))
         return cls(relief, surface, scale_error, most, x, y, z, noise, names, basis)
 

@@ -58,7 +58,8 @@ def with_flow(case: Case, settings: MeltPoolSettings, layers: Layers, heat: Cond
         layers=layers.thickness.size,
         weighing=weighing,
     )
-    (x,) = case.domain.lateral(case.geometry)
+    # What flows stays among the fine columns.
+    (x,) = layers.fine_bounds
     box = (x, (-float(layers.thickness.sum()), 0.0))
     conditions = FaceConditions(
         box, case.boundaries, case.flow, case.initial_temperature, has_axis=is_section
@@ -69,7 +70,7 @@ def with_flow(case: Case, settings: MeltPoolSettings, layers: Layers, heat: Cond
     surface: Surface
     support = float(static.support.min())
     if case.surface_moves:
-        line = _surface_line(case, conditions, filling.surface.size)
+        line = _surface_line(case, conditions, filling.fine_surface)
         _raise_particles(case, body, static, line)
         moving = RidingSurface if is_section else MovingSurface
         surface = moving(
@@ -131,6 +132,7 @@ def with_flow(case: Case, settings: MeltPoolSettings, layers: Layers, heat: Cond
         lambda T: wall_potential(curve, T),
         lambda T: wall_enthalpy(curve, T),
         body.particles["volume"],
+        body.free,
     )
     bodies = backend.zeros(count) if is_section else body.particles["volume"]
     terms = RINGS if is_section else PLANE
