@@ -145,12 +145,12 @@ class _Alignment:
         basis = np.linalg.qr(np.stack(columns, axis=1))[0]
         # unknowns that a profile or a map, of lines or of a spot, can tell
         names = ["shift_x_m", "lateral_scale"]
-        meaning = {
+        knowable = {
             "rotation_rad": is_map and not relief.is_round,
             "fluence_factor": relief.tells_fluence,
             "shift_y_m": is_map and relief.is_spot,
         }
-        names += [name for name, is_told in meaning.items() if is_told]
+        names += [name for name, is_known in knowable.items() if is_known]
         noise = max(point_noise(surface.z), 1e-6 * float(np.std(z - basis @ (basis.T @ z))))
         return cls(relief, surface, scale_error, most, x, y, z, noise, names, basis)
 
