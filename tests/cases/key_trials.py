@@ -127,6 +127,15 @@ LASER = {
         "[['300 K', 0.2], ['3000 K', 0.2]]",
         beside=("laser.reflectivity={ table = [['300 K', 0.5], ['3000 K', 0.5]] }",),
     ),
+    "laser.absorptivity": alone("0.1"),
+    "laser.absorptivity.table": alone(
+        "[['300 K', 0.2], ['3000 K', 0.2]]",
+        beside=("laser.absorptivity={ table = [['300 K', 0.5], ['3000 K', 0.5]] }",),
+    ),
+    "laser.absorptivity.over_time": alone(
+        "[['0 ns', 0.2], ['1 ns', 0.2]]",
+        beside=("laser.absorptivity={ over_time = [['0 ns', 0.2], ['1 ns', 0.9]] }",),
+    ),
     "laser.wavelength": alone("532 nm"),
     "laser.position": alone("['0.4 um', '0 um']")
     + alone("['0.4 um', '0 um']", beside=(SPOT,))

@@ -36,6 +36,7 @@ UNTRIED = {
     "laser.spot.scan_speed": "`check` says the overlap of the pulses from it",
     "solver.dimensions": "chooses another domain",
     "solver.geometry": "chooses another domain; tests/laws/test_axisymmetric_heat.py",
+    "laser.absorptivity.path": "a file; tests/unit/lasers/test_absorptivity.py",
     "laser.pulse.path": "a file; tests/unit/lasers/test_pulses.py",
     "solver.flow.initial.path": "a file; bad_flow_cases.py",
     "solver.flow.initial.rows": "filled in from the file",

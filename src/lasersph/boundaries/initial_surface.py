@@ -3,14 +3,13 @@ has left."""
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field, ValidationInfo, model_validator
 
-from lasersph.input import Length, Model, format_quantity, refusal
+from lasersph.input import Length, Model, format_quantity, refusal, with_rows_of_file
 
 if TYPE_CHECKING:
     from lasersph.boundaries.surface_shapes import SurfaceShape
@@ -80,13 +79,7 @@ class InitialSurface(Model):
     @classmethod
     def _fill(cls, data: Any, info: ValidationInfo) -> Any:
         """Rows from the file, which counts from the folder of the case file."""
-        if isinstance(data, dict) and isinstance(data.get("path"), str) and not data.get("rows"):
-            from lasersph.input.csv_rows import read_rows  # few cases name a file
-
-            folder = (info.context or {}).get("folder") or Path()
-            file = Path(folder) / Path(data["path"]).expanduser()
-            return data | {"rows": read_rows(file, COLUMNS)}
-        return data
+        return with_rows_of_file(data, info, COLUMNS)
 
     @model_validator(mode="after")
     def _check(self) -> InitialSurface:

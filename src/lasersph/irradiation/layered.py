@@ -127,6 +127,7 @@ class LayeredLight:
             self._means = ring_means(laser, self.lower[0], self.upper[0])
         else:
             self._means = laser.resting_means(self.lower, self.upper)
+        self.material = material
         table = laser.reflectivity_table(material, COLDEST, HOTTEST)
         self._varies = bool(np.ptp(table[1]) > 0.0)
         R_T, R_R = map(backend.asarray, table)
@@ -171,6 +172,11 @@ class LayeredLight:
         if self.laser is None:
             return
         density = self.laser.energy_density(self.lower, self.upper, start, end, self._means)
+        # an absorptivity over time has one value in the step
+        if self.laser.absorbs_over_time:
+            span, R_R = (COLDEST, HOTTEST), self._entering["R_R"]
+            _, R = self.laser.reflectivity_table(self.material, *span, (start, end))
+            self.backend.copy(self.backend.asarray(R), R_R)
         self.incident = float(np.sum(density * self.surface_area))
         self.backend.copy(self.backend.asarray(density), self.fluence)
 
