@@ -186,7 +186,7 @@ class PoolDomain:
         return self._block
 
     def keep_resting(self, has_row: Array) -> Array:
-        """Marks (count,) of rows, changed in place: 0 where pairs reach coarse columns, and stay."""
+        """Marks (count,) of rows, set to 0 in place where pairs reach coarse columns, and stay."""
         if self._free is None:
             return has_row
         fields = {"mark": has_row, "free": self.backend.head(self._free, has_row.shape[0])}
