@@ -1,6 +1,7 @@
 """Runs of the format before amounts were those of the whole are read as those of today."""
 
 import json
+import shutil
 
 import numpy as np
 import pytest
@@ -9,6 +10,8 @@ from synthetic_run import make_run
 from lasersph import compare_runs, open_run
 from lasersph.cli.results import info
 from lasersph.output.older_results import note_on_older, read_uncertainty
+from lasersph.studies.maps import count_of_older
+from lasersph.sweeps.table import Row, Table
 
 AMOUNTS = ("energy_", "melt_volume")
 HALVED = {"melt": ("volume_max_m3",), "energy": ("absorbed_J", "stored_J", "lost_J", "latent_J")}
@@ -106,3 +109,13 @@ def test_errors_of_amounts_are_doubled(runs):
         "value": 6.0, "error": 2.0, "numerical": None, "from_inputs": 1.0, "order": 1.5,
         "values": [6.0, 4.0], "inputs": {"k": {"up": 0.2, "standard": 0.4, "is_linear": True}},
     }  # fmt: skip
+
+
+def test_maps_count_runs_of_the_earlier_format(runs, tmp_path):
+    """Those alone whose amounts are multiplied, and that are complete."""
+    today, older = runs
+    shutil.copytree(today, tmp_path / "runs/a")
+    shutil.copytree(older, tmp_path / "runs/b")
+    rows = tuple(Row(name, "complete", {}) for name in ("a", "b"))
+    table = Table(tmp_path, (*rows, Row("c", "missing", {})), {}, ())
+    assert count_of_older(table) == 1

@@ -21,7 +21,7 @@ from lasersph.output.frame_blocks import particle_index
 from lasersph.report import scene, write_report
 from lasersph.report.headline import error_of, large_numbers, light_text, what_was_computed
 from lasersph.report.summary_text import note_texts, verdict, warning_texts
-from lasersph.report.tables import entry, main_rows, summary_rows, with_error
+from lasersph.report.tables import entry, main_rows, place_text, summary_rows, with_error
 from lasersph.report.uncertainty_tables import two_digits
 from lasersph.report.write import command_of, report_page
 
@@ -372,6 +372,14 @@ def test_terminal_says_that_particles_are_of_a_part(folder):
     assert dict(summary_rows(quarter))["particles"].endswith(" in one quarter")
     whole = summary | {"mirror_images": 1}
     assert dict(summary_rows(whole))["particles"] == str(summary["particles"])
+
+
+def test_places_of_a_section_are_radii():
+    """A place along the first axis is r there; in a plane run it is x."""
+    summary = {"flow": {"surface_speed_max_x_m": 3e-9}, "dimensions": 2}
+    key = "flow.surface_speed_max_x_m"
+    assert place_text(summary, key) == "x = 3 nm"
+    assert place_text(summary | {"amount_dimensions": 3}, key) == "r = 3 nm"
 
 
 def test_errors_stand_in_the_unit_of_the_value():
