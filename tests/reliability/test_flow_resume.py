@@ -8,6 +8,7 @@ import pytest
 from flow_boxes import box_case
 from reliability_runs import assert_same, kill_after, small_case
 
+from lasersph.case import load_case
 from lasersph.output import open_run
 from lasersph.output.checkpoint import candidates, load
 from lasersph.simulation import run
@@ -25,6 +26,8 @@ MOVING = (
     "time.end=60ns",
     "output.snapshots.interval=1ns",
 )
+BESIDE = ("particles.spacing=64nm", "particles.fine_width=3.4um", "domain.width=20um",
+          "particles.coarsest=3um", "time.step=200ps", "time.end=28ns")  # fmt: skip
 HEAT = {"left": "fixed-temperature", "left_temperature": 310.0, "right": "fixed-temperature"}
 
 
@@ -121,3 +124,15 @@ def test_steady_box(tmp_path):
     stop_at(case, folders[1], summary["steps"] - 3, threads=1)
     run(case, folders[1], resume=True, threads=1)
     assert_same(folders[1], folders[0])
+
+
+@pytest.mark.parametrize("geometry", ["planar", "axisymmetric"])
+def test_pool_beside_coarse_columns(geometry, tmp_path):
+    """Stopped while the pool flows and resumed on two threads: the same bits as on one."""
+    case = load_case("spot-steel", (*BESIDE, f"solver.geometry={geometry}"))
+    whole = run(case, tmp_path / "whole", threads=1).summary
+    assert whole["flow"]["speed_max_m_s"] > 0.5
+    stop_at(case, tmp_path / "run", 115, threads=2)
+    assert np.abs(last_state(tmp_path / "run")[0]["velocity"]).max() > 0.0
+    run(case, tmp_path / "run", resume=True, threads=2)
+    assert_same_state(tmp_path / "run", tmp_path / "whole")
