@@ -126,5 +126,14 @@ def test_ends_and_steps(tmp_path):
         spot_case(**how, time={"end": 2.6e-8, "step": 2.5e-11}), tmp_path / "half", threads=2
     )
     for key in ("volume_max_m3", "depth_half_max_m"):
-        assert half.summary["melt"][key] == pytest.approx(whole.summary["melt"][key], rel=5e-3)
+        expected = pytest.approx(whole.summary["melt"][key], rel=5e-3, abs=0.0)
+        assert half.summary["melt"][key] == expected
+    sizes = half.summary["melt"]
+    assert 2.0 * sizes["radius_half_max_m"] == sizes["width_half_max_m"]
     assert whole.summary["flow"]["kinetic_energy_unit"] == "J"
+    # the slope of iron drives the melt outward at the surface, and nothing the other way round
+    cells, melt = whole.summary["flow"]["cells"], whole.summary["melt"]
+    assert cells["outward_turnover_max_m3_s"] > 0.0 == cells["inward_turnover_max_m3_s"]
+    assert 5e-8 < cells["outward_height_max_m"] < melt["depth_max_m"] + 5e-8
+    # resuming finds the rows of the cells again
+    assert open_run(tmp_path / "part").summary["flow"]["cells"] == cells
