@@ -1,6 +1,6 @@
 """A surface that moves in a section (r, z): films, free bumps, caps, and what a pool keeps."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
@@ -13,6 +13,7 @@ from lasersph.analytic.liquid_film import Drive, LiquidFilm
 from lasersph.case import Case
 from lasersph.simulation.recipes import recipe_of
 from lasersph.simulation.time_loop import Stopped
+from lasersph.surface.flat_surface import ImposedTemperature
 
 STEEL = {"density": 6863.0, "viscosity": 7e-3, "surface_tension": 1.6}
 ALUMINUM = {"density": 2379.0, "viscosity": 2.2747e-3, "surface_tension": 0.87}
@@ -20,16 +21,20 @@ MOVING = {"flow": {"surface": "moving"}, "vaporization": "flux"}
 SPOT = {"spacing": 5e-8, "width": 2e-6, "depth": 8e-7, "material": "steel-304", "solver": MOVING}
 
 
-def box(liquid, *, width, depth, spacing, right="symmetry", start=None, **rooms):
-    """Solver of a box of liquid in a section, over a wall on which nothing slips."""
+def box(
+    liquid, *, width, depth, spacing, right="symmetry", start=None, geometry="axisymmetric", **rooms
+):
+    """Solver of a box of liquid, of a section (r, z) or between planes of symmetry, over a wall on
+    which nothing slips."""
     flow = {"surface": "moving", "right": right}
+    flow |= {"left": right} if geometry == "planar" else {}
     flow |= {} if start is None else {"initial_surface": start}
     data = {
         "material": {"name": "liquid", "heat_capacity": 704.0, "conductivity": 26.8, **liquid},
         "initial_temperature": 2000.0,
         "domain": {"width": width, "depth": depth},
         "particles": {"spacing": spacing, "arrangement": "uniform"},
-        "solver": {"kind": "melt-pool", "geometry": "axisymmetric", "flow": flow},
+        "solver": {"kind": "melt-pool", "geometry": geometry, "flow": flow},
         "time": {"end": 1e-6},
         **rooms,
     }
@@ -60,7 +65,47 @@ def test_film_below_a_bump_of_temperature():
     )[0]
     go(solver, end)
     assert line.height == pytest.approx(wanted, abs=0.02 * np.abs(wanted).max())
-    assert line.volume_of(line.height) == pytest.approx(0.0, abs=1e-12 * line.volume_of(depth))
+    assert abs(line.volume_of(line.height)) < 1e-12 * line.volume_of(depth)
+
+
+class WarmRing:
+    """100 K more at a distance from the axis, 1 um wide."""
+
+    def __init__(self, at):
+        self.at = at
+
+    def mean_over(self, x, begin, end):
+        """What the surface has more at x [K]."""
+        return 100.0 * np.exp(-(((x - self.at) / 1e-6) ** 2))
+
+
+def ring_film(geometry, width, at):
+    """Heights of five rows of steel 20 ns after a ring, or a line, has become warm."""
+    solver = box(
+        {**STEEL, "surface_tension_slope": -4.3e-4},
+        width=width,
+        depth=2.8e-7,
+        spacing=5.6e-8,
+        geometry=geometry,
+        boundaries={"surface": "fixed-temperature", "surface_temperature": 2000.0},
+        time={"end": 2e-8, "step": 5e-10},
+    )
+    surface = solver.domain.surface
+    given = replace(surface.forcing, temperature=ImposedTemperature(2000.0, WarmRing(at)))
+    surface.forcing = surface.stress_law.forcing = given
+    go(solver, 2e-8)
+    return surface.line.height
+
+
+def test_far_from_the_axis_a_ring_is_a_line():
+    """40 widths out: the same heights within 0.5 %, in the mean of both sides. 0.3 % came out,
+    which 80 widths do not change: the melt passes between particles here, and moves them there."""
+    columns, out = 100, 714
+    line = ring_film("planar", columns * 5.6e-8, 0.0)
+    ring = ring_film("axisymmetric", (out + columns // 2) * 5.6e-8, out * 5.6e-8)[-columns:]
+    mean, wanted = (0.5 * (heights + heights[::-1]) for heights in (ring, line))
+    near = slice(columns // 2 - 40, columns // 2 + 40)
+    assert mean[near] == pytest.approx(wanted[near], abs=5e-3 * np.abs(wanted).max())
 
 
 def test_free_bump():
@@ -83,13 +128,13 @@ def test_cap_at_rest():
     solver = box(STEEL, width=R_0, depth=1e-6, spacing=5e-8, right="no-slip", start=start)
     line = solver.domain.surface.line
     volume = np.pi * height / 6.0 * (3.0 * R_0**2 + height**2)
-    assert line.volume_of(line.height) == pytest.approx(volume, rel=1e-9)
+    assert line.volume_of(line.height) == pytest.approx(volume, rel=1e-9, abs=0.0)
     go(solver, 4e-8)
     R = (R_0**2 + height**2) / (2.0 * height)
-    assert host(solver, "pressure").mean() == pytest.approx(3.2 / R, rel=0.01)
-    assert line.curvature == pytest.approx(2.0 / R, rel=0.01)
+    assert host(solver, "pressure").mean() == pytest.approx(3.2 / R, rel=0.01, abs=0.0)
+    assert line.curvature == pytest.approx(2.0 / R, rel=0.01, abs=0.0)
     assert 7e-3 * np.abs(host(solver, "velocity")).max() / 1.6 < 1e-4
-    assert line.volume_of(line.height) == pytest.approx(volume, rel=1e-9)
+    assert line.volume_of(line.height) == pytest.approx(volume, rel=1e-9, abs=0.0)
 
 
 @dataclass
@@ -122,7 +167,7 @@ def test_what_a_pool_keeps():
     line, end = solver.domain.surface.line, books(solver)
     assert np.abs(host(solver, "velocity")).max() > 1.0
     assert np.ptp(line.height) > 1e-9
-    assert end.mass == pytest.approx(start.mass, rel=1e-13)
+    assert end.mass == pytest.approx(start.mass, rel=1e-13, abs=0.0)
     absorbed = solver.state.energy["absorbed"]
     assert end.heat - start.heat == pytest.approx(absorbed, abs=1e-12 * end.heat)
     assert abs(line.volume_of(line.height)) < 1e-13 * line.volume_of(1e-6)
@@ -145,9 +190,9 @@ def test_vapor_takes_mass_and_heat():
     line, end, energy = solver.domain.surface.line, books(solver), solver.state.energy
     lost = solver.domain.surface.loss.volume
     assert lost > 0.0
-    assert line.volume_of(line.height) == pytest.approx(-lost, rel=1e-9)
+    assert line.volume_of(line.height) == pytest.approx(-lost, rel=1e-9, abs=0.0)
     density = solver.domain.surface.loss.density
-    assert start.mass - end.mass == pytest.approx(density * lost, rel=1e-6)
+    assert start.mass - end.mass == pytest.approx(density * lost, rel=1e-6, abs=0.0)
     change = energy["absorbed"] - energy["lost"] - energy["removed"]
     assert end.heat - start.heat == pytest.approx(change, abs=1e-9 * start.heat)
 
@@ -174,7 +219,7 @@ def test_steps_ends_and_threads(tmp_path):
     run(spot_case(**SPOT, time={"end": 2.6e-8, "step": 2.5e-11}), tmp_path / "half")
     ends = (open_run(tmp_path / name).surface.nearest(2.6e-8) for name in ("whole", "half"))
     center, again = (float(each["position"][1][0]) for each in ends)
-    assert again == pytest.approx(center, rel=1e-2)
+    assert again == pytest.approx(center, rel=1e-2, abs=0.0)
     assert center < -5e-9
 
 
@@ -198,7 +243,7 @@ def test_second_pulse_on_a_relief():
     assert np.ptp(before) > 5e-9
     tops = solver.domain.surface.column_tops(solver.position, solver.particles["volume"])
     assert tops == pytest.approx(before, abs=1e-13)
-    density = case.material.density_reference
-    assert host(solver, "mass") == pytest.approx(density * np.asarray(solver.flow.volume), rel=1e-9)
+    mass = case.material.density_reference * np.asarray(solver.flow.volume)
+    assert host(solver, "mass") == pytest.approx(mass, rel=1e-9, abs=0.0)
     go(solver, 1e-3 + 2.4e-8)
     assert solver.fluid_count > 0
