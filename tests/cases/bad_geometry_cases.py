@@ -2,6 +2,7 @@
 """Bad sections (r, z): what is replaced in good-spot.toml, by what, and the message that must come."""
 
 BEAM = 'beam = { kind = "gaussian", radius_1e2 = "2 um" }'
+PULSE = 'pulse = { kind = "gaussian", fwhm = "10 ns", center = "30 ns" }'
 ENERGY = 'pulse_energy = "100 nJ"'
 BOTTOM = 'bottom = "adiabatic"'
 WIDTH = 'width = "6 um"'
@@ -114,6 +115,21 @@ BAD_GEOMETRY_CASES = {
         'depth = "0 nm"',
         'depth = "0 nm"\nx = "-1 um"',
         ":31: probes[1].x: -1 um lies outside the domain, which runs from 0 m to 6 um; place the probe inside",
+    ),
+    "negative radius of the block": (
+        WIDTH,
+        'width = "-6 um"',
+        ':12: domain.width: must be greater than 0, got "-6 um"',
+    ),
+    "pulse whose times go back": (
+        PULSE,
+        'pulse = { kind = "tabulated", table = [["0 ns", 0.0], ["20 ns", 1.0], ["10 ns", 0.0]] }',
+        ":7: laser.pulse: the times of a pulse table must rise from row to row; two rows at one time make a jump, three are too many",
+    ),
+    "absorptivity whose times go back": (
+        PULSE,
+        PULSE + '\nabsorptivity = { over_time = [["0 ns", 0.5], ["20 ns", 0.4], ["10 ns", 0.3]] }',
+        ":8: laser.absorptivity.over_time: has times that go back; they must rise from row to row, two rows at one make a jump, three are too many",
     ),
     "ring inside out": (
         BEAM,

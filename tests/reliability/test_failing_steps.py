@@ -17,7 +17,7 @@ CAVITY = (
     '--set time.end=0.5s --set output.snapshots.interval=0.1s --out'
 )  # fmt: skip
 POOL = (
-    "run dlip-steel --no-figures --threads 1 --set solver.kind=melt-pool "
+    "run dlip-steel --anyway --no-figures --threads 1 --set solver.kind=melt-pool "
     "--set particles.spacing=64nm --set time.step=1ns --out"
 )
 

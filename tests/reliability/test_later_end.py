@@ -151,7 +151,8 @@ def test_overwriting(folders, tmp_path, capsys):
     (folder / "notes.txt").write_text("mine")
     (folder / "report.html").write_text("old")
     summary = (folder / "summary.json").read_bytes()
-    command = ["run", "dlip-steel", "--out", str(folder), "--overwrite", "--no-figures", "--set"]
+    command = ["run", "dlip-steel", "--out", str(folder), "--overwrite", "--no-figures", "--anyway"]
+    command += ["--set"]
     assert main([*command, "particles.spacing=-1nm"]) == 2
     assert main([*command, "particles.spacing=100nm", "--resume"]) == 2
     assert (folder / "summary.json").read_bytes() == summary

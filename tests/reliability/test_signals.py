@@ -18,7 +18,8 @@ def start_run(folder, *options):
     """`lasersph run` with a pipe as its standard input, which has written a checkpoint."""
     command = [
         *(sys.executable, "-c", "import sys; from lasersph.cli import main; sys.exit(main())"),
-        *("run", CASE, "--out", str(folder), "--threads", "2", "--no-figures", *options),
+        *("run", CASE, "--out", str(folder), "--threads", "2", "--no-figures"),
+        *("--anyway", *options),
         *(word for setting in (*SETTINGS, FAR_END) for word in ("--set", setting)),
     ]
     process = subprocess.Popen(

@@ -56,7 +56,8 @@ Quick = Annotated[
 Anyway = Annotated[
     bool,
     typer.Option(
-        "--anyway", help="Start what `check` refuses as too large for this machine all the same."
+        "--anyway",
+        help="Start all the same what is too large for this machine, or too coarse for its flow.",
     ),
 ]
 Threads = Annotated[

@@ -86,3 +86,5 @@ def check(
     expected = check_case(loaded, threads=threads, backend=backend)
     print(expected)
     print("the case is right" + ("; think about the warnings" if expected.warnings else ""))
+    if expected.flow is not None and expected.flow.unresolved and not quick:
+        print("too coarse for its flow: lasersph run asks for --anyway or --quick")

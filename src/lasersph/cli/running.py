@@ -92,6 +92,8 @@ def run(
     """Compute a case; the run folder then holds history, summary, particles, figures, report."""
     from lasersph.case import load_case
     from lasersph.cli.progress import WarningsOnce
+    from lasersph.simulation.acceptance import refuse_unresolved
+    from lasersph.simulation.recipes import recipe_of
 
     # Refuse all that is wrong before anything is written.
     refuse_backend(backend, threads)
@@ -107,6 +109,10 @@ def run(
             "--workers is for the companions of --uncertainty; one run has --threads"
         )
     refuse_workers(engine, backend, precision)
+
+    # Too coarse for its flow: --quick is known to be, and --anyway says that it may.
+    if not quick and not anyway:
+        refuse_unresolved(recipe_of(loaded).flow)
 
     # Inputs of --uncertain, the folder, and the command that would go on after a signal.
     inputs = _uncertain_inputs(loaded, uncertain or (), wanted=uncertainty)

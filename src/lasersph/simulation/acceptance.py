@@ -9,9 +9,10 @@ from lasersph.case import Case
 from lasersph.case.checks import refuse_if_too_large
 from lasersph.case.size import Size
 from lasersph.compute.threads import chosen
-from lasersph.input import CaseError
+from lasersph.input import CaseError, format_quantity
 from lasersph.simulation.forecast import Forecast, forecast
 from lasersph.simulation.recipes import Recipe
+from lasersph.simulation.recipes.recipe import FEWEST_ROWS, FlowForecast
 
 ANYWAY = "or start it all the same: lasersph run --anyway, anyway=True in Python"
 
@@ -45,6 +46,24 @@ def accepted_forecast(
         expected = forecast(case, threads=threads, backend=backend, recipe=recipe)
         return replace(expected, warnings=(str(error), *expected.warnings))
     return expected
+
+
+def refuse_unresolved(flow: FlowForecast | None) -> None:
+    """Refuse a flow of which layers are thinner than two spacings, with the numbers that spoils.
+
+    Who starts one run asks for it; sweeps and studies, which compare runs, have warnings.
+
+    Raises:
+        CaseError: with the spacing that resolves the thinnest layer.
+    """
+    if flow is None or not flow.unresolved:
+        return
+    finer = format_quantity(min(flow.layers.values()) / FEWEST_ROWS, "m", 2)
+    raise CaseError(
+        "; ".join(flow.unresolved),
+        f'write spacing = "{finer}" or less, {ANYWAY}; --quick says it itself',
+        key="particles.spacing",
+    )
 
 
 def check(

@@ -17,7 +17,7 @@ from lasersph.input.quantity import kind_of
 from lasersph.input.schema import Schema, as_toml
 from lasersph.input.shown_unit import number_and_unit
 from lasersph.input.units import UnitError, parse_unit
-from lasersph.simulation.acceptance import accepted_forecast
+from lasersph.simulation.acceptance import accepted_forecast, refuse_unresolved
 from lasersph.web.case_source import CaseSource
 from lasersph.web.changes import units_written
 
@@ -215,6 +215,7 @@ def checked(source: CaseSource, settings: Sequence[str]) -> dict[str, Any]:
         case = load_case(source.path, settings)
         threads = chosen(None)
         expected = accepted_forecast(case, threads=threads)
+        refuse_unresolved(expected.flow)
     except CaseError as error:
         problems = [
             {

@@ -6,7 +6,9 @@ import pytest
 import lasersph
 from lasersph.case import size as size_module
 from lasersph.cli import main
+from lasersph.simulation.acceptance import refuse_unresolved
 from lasersph.simulation.layers import lay_out
+from lasersph.simulation.recipes import recipe_of
 
 COARSE = ("particles.spacing=64 nm", "time.end=100 ns")
 ONE_MIB = 2.0**20
@@ -55,3 +57,44 @@ def test_started_anyway(tmp_path, monkeypatch):
     monkeypatch.setattr(size_module, "machine_memory", lambda: ONE_MIB)
     result = lasersph.run(case, tmp_path / "run", anyway=True, warn=None)
     assert "of memory, but this machine has" in result.summary["warnings"][0]
+
+
+def test_too_coarse_for_its_flow(capsys, tmp_path):
+    """`run` names the number that is spoiled and asks for --anyway; --quick says so itself; `check`
+    tells of it and is content."""
+    folder = tmp_path / "run"
+    coarse = ["--set", "particles.spacing=60 um"]
+    assert main(["run", "spot-weld", *coarse, "--out", str(folder)]) == 2
+    said = capsys.readouterr().err
+    assert "particles.spacing: the viscous layer of the pool is about" in said
+    assert "the speed of the surface will be off; the thermal layer" in said
+    assert 'write spacing = "1.8 um" or less, or start it all the same: lasersph run --any' in said
+    assert not folder.exists()
+    assert main(["check", "spot-weld", *coarse]) == 0
+    assert "lasersph run asks for --anyway or --quick" in capsys.readouterr().out
+    assert main(["check", "spot-weld", *coarse, "--quick"]) == 0
+    assert "asks for" not in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("flag", ["--anyway", "--quick"])
+def test_as_coarse_as_the_user_says(flag, tmp_path, capsys):
+    """It runs, and warns of what is spoiled."""
+    short = [
+        "--set",
+        "particles.spacing=60 um",
+        "--set",
+        "time.end=0.1 ms",
+        "--set",
+        "laser.power=200 W",
+    ]
+    command = ["run", "spot-weld", *short, "--out", str(tmp_path / "run"), "--no-figures", flag]
+    assert main(command) == 0
+    assert "the speed of the surface will be off" in capsys.readouterr().err
+
+
+def test_resolved_flow_is_not_refused():
+    """Shipped textures, and what has no flow."""
+    for name in ("texture-steel", "texture-aluminium", "dlip-steel", "spot-steel", "stefan"):
+        refuse_unresolved(recipe_of(lasersph.load_case(name)).flow)
+    with pytest.raises(lasersph.CaseError, match="will be off"):
+        refuse_unresolved(recipe_of(lasersph.load_case("spot-weld")).flow)

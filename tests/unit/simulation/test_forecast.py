@@ -196,10 +196,11 @@ def test_numbers_and_layers_of_a_pool() -> None:
     assert flow.layers["thermal layer"] == pytest.approx(depth / flow.numbers["Ma"] ** 0.5)
     assert "numbers of the pool    Re" in str(found)
     assert any("the speed of the surface will be off" in text for text in found.warnings)
+    assert len(flow.unresolved) == 2
     # slow flow has no boundary layer, and metal that does not melt no pool
     lid = ["material=steel-304-demuth", "solver.flow.surface=flat", "solver.vaporization=plateau"]
     slow = forecast(load_case("spot-steel", lid)).flow
     cold = forecast(load_case("spot-steel", [*lid, "laser.fluence=0.1 J/cm^2"])).flow
     assert slow is not None and slow.numbers["Re"] < 1.0 < slow.numbers["Ma"]
-    assert set(slow.layers) == {"thermal layer"}
+    assert set(slow.layers) == {"thermal layer"} and slow.unresolved == ()
     assert cold is not None and cold.numbers == {} and cold.layers == {}

@@ -119,6 +119,12 @@ def test_check_names_the_key_and_what_is_right(browser):
     assert "this machine has" in dict(right["forecast"])["memory"]
 
 
+def test_case_that_is_too_coarse_for_its_flow_is_not_started(browser):
+    """As `lasersph run` without --anyway."""
+    (problem,) = browser.post("/api/check", json=asked("spot-weld")).json()["problems"]
+    assert problem["key"] == "particles.spacing" and "will be off" in problem["text"]
+
+
 def test_case_that_is_too_large_is_not_started(browser, tmp_path):
     """Refused before it runs, in the words of `lasersph check`."""
     finer = asked("dlip-steel", ["particles.spacing=0.1 nm"])

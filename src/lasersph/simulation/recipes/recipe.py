@@ -31,6 +31,9 @@ from lasersph.solvers.step_control import Solver, name_of_longest
 SettingsT = TypeVar("SettingsT", bound=SolverSettings)
 SolverT = TypeVar("SolverT", bound=Solver)
 
+FEWEST_ROWS = 2
+"""Rows of a boundary layer below which it is not resolved. Forecast: `run` asks for --anyway."""
+
 
 @dataclass(frozen=True)
 class RunStage:
@@ -64,7 +67,7 @@ class StepForecast:
 class FlowForecast:
     """Expected speed [m/s], thickness of the layer that moves [m] (None in boxes without one), time
     over which something flows [s], limits [s] and warnings; numbers and boundary layers [m] of a
-    pool, by name."""
+    pool, by name; sentences of the layers that the spacing does not resolve."""
 
     speed: float
     layer: float | None
@@ -73,6 +76,7 @@ class FlowForecast:
     warnings: tuple[str, ...]
     numbers: dict[str, float] = field(default_factory=dict)
     layers: dict[str, float] = field(default_factory=dict)
+    unresolved: tuple[str, ...] = ()
 
 
 class Recipe(ABC, Generic[SettingsT, SolverT]):

@@ -33,7 +33,7 @@ from lasersph.simulation.recipes.melt_pool.driven_speed import (
     BELOW_MOVING_SURFACE,
     driven_speed,
 )
-from lasersph.simulation.recipes.recipe import FlowForecast
+from lasersph.simulation.recipes.recipe import FEWEST_ROWS, FlowForecast
 from lasersph.solvers.melt_pool.layout_renewal import HEIGHT_RANGE
 from lasersph.solvers.melt_pool.settings import MeltPoolSettings
 from lasersph.surface.capillary_waves import surface_limits
@@ -48,8 +48,6 @@ MOLTEN_PULSES = 8.0
 to 5."""
 MIN_LAYERS = 8
 """Rows of melt below which there is hardly a flow. Forecast: `lasersph check` says so."""
-FEWEST_ROWS = 2
-"""Rows of a boundary layer below which it is not resolved. Forecast: `lasersph check` says so."""
 SPEED_NODES = 65
 """Nodes of the means of viscosity and surface tension. Forecast: over the melt's temperatures."""
 DEPTH_MARGIN = 1.2
@@ -104,8 +102,9 @@ def flow_forecast(
         limits |= surface_limits(gamma, density, nu, cutoff_of(spacing))
     numbers = pool_numbers(case, heating, speed) if case.flow is None else {}
     layers = {} if not numbers else boundary_layers(numbers, heating)
-    warnings = (*_warnings(layer, spacing), *_thin_layers(layers, spacing))
-    return FlowForecast(speed, layer, duration, limits, warnings, numbers, layers)
+    thin = _thin_layers(layers, spacing)
+    warnings = (*_warnings(layer, spacing), *(f"{text}; take a finer one" for text in thin))
+    return FlowForecast(speed, layer, duration, limits, warnings, numbers, layers, thin)
 
 
 def pool_numbers(case: Case, heating: MeltEstimate | None, speed: float) -> dict[str, float]:
@@ -291,19 +290,18 @@ def recession_warning(case: Case, layers: Layers, evaporated: float) -> str:
     )
 
 
-def _thin_layers(layers: dict[str, float], spacing: float) -> list[str]:
-    """Warnings of boundary layers that the spacing does not resolve, and what they spoil."""
+def _thin_layers(layers: dict[str, float], spacing: float) -> tuple[str, ...]:
+    """Sentences of the boundary layers that the spacing does not resolve, and what that spoils."""
     spoiled = {
         "viscous layer": "the speed of the surface",
         "thermal layer": "the heat that the flow carries, and so depth and width",
     }
-    return [
+    return tuple(
         f"the {name} of the pool is about {format_quantity(thickness, 'm', 3)} thick, less than "
-        f"{FEWEST_ROWS} spacings of {format_quantity(spacing, 'm', 3)}: {spoiled[name]} will be "
-        "off; take a finer one"
+        f"{FEWEST_ROWS} spacings of {format_quantity(spacing, 'm', 3)}: {spoiled[name]} will be off"
         for name, thickness in layers.items()
         if thickness < FEWEST_ROWS * spacing
-    ]
+    )
 
 
 def _warnings(layer: float | None, spacing: float) -> list[str]:
