@@ -140,7 +140,8 @@ def make_run(
             after_step(run, step)
     run.events.append("warning", time=0.0, step=0, message="4.0 cells per absorption length")
     if complete:
-        summary = {"case": "made-up steel", "solver": "formula", "particles": position.shape[1]}
+        summary = {"case": "made-up steel", "solver": "formula", "particles": position.shape[1],
+                   "mirror_images": 2}  # fmt: skip
         run.finish({**summary, "wall_time_s": 1.5, **observers.summary()})
     else:
         run.history.flush()

@@ -7,7 +7,7 @@ import pytest
 from figures import GALLERY
 from figures.experiment import agreement, reliefs
 
-from lasersph import load_case
+from lasersph import available_cases, load_case
 
 ROOT = Path(__file__).resolve().parent.parent
 FIRST_TEXTS = (
@@ -80,3 +80,22 @@ def test_section_of_a_spot_is_called_a_line_focus(page):
         if SPOTS.search(case) and re.search(r"^dimensions = 2\b", case, re.MULTILINE)
     ]
     assert not sections or "line focus" in text
+
+
+COMMAND = re.compile(
+    r"lasersph (?:run|check|threshold|converge|spot) +([a-z][a-z0-9-]*)(?![-\w./])"
+)
+
+
+def test_commands_name_cases_that_are_shipped():
+    """Of all pages, texts of examples and validations, and comments of cases."""
+    folders = [ROOT / name for name in ("docs", "examples", "src", "benchmarks")]
+    files = [ROOT / "README.md", *(file for one in folders for file in one.rglob("*.md"))]
+    files += [file for one in folders for file in one.rglob("*.toml")]
+    named = {
+        (file.relative_to(ROOT).as_posix(), name)
+        for file in files
+        for name in COMMAND.findall(file.read_text(encoding="utf-8"))
+    }
+    assert len(named) > 20
+    assert [pair for pair in sorted(named) if pair[1] not in available_cases()] == []

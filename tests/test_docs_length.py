@@ -15,6 +15,7 @@ from lasersph.validation import names
 from lasersph.validation.study import home_of
 
 DOCS = Path(__file__).resolve().parent.parent / "docs"
+EXAMPLES = DOCS.parent / "examples"
 MOST = 1500
 """Words of a page: seven minutes of reading."""
 MOST_IN_A_PARAGRAPH = 100
@@ -106,6 +107,14 @@ def test_code_is_as_wide_as_the_page(page):
     """A longer line is read by moving it, half of it at a time."""
     for begins, block in BLOCK.findall(READ[page]):
         assert begins not in CODE or max(map(len, block.splitlines())) <= MOST_IN_A_LINE, block
+
+
+def test_cases_of_examples_are_as_wide_as_the_page():
+    """The page of the examples shows them as code."""
+    files = [file for file in EXAMPLES.glob("*/*.toml") if file.name != "expected.toml"]
+    lines = [(file, line) for file in files for line in file.read_text("utf-8").splitlines()]
+    assert len(files) > 5
+    assert [pair for pair in lines if len(pair[1]) > MOST_IN_A_LINE] == []
 
 
 def test_listed_pages_exist():

@@ -83,3 +83,22 @@ def test_words_are_found():
         "class Exposure, def pull(, lasersph.report.words"
     )
     assert all(re.search(word, old, re.IGNORECASE) for word in OLD_WORDS)
+
+
+SPELLING = re.compile(r"(?<![-_\"`./=])\baluminium\b(?![-_.\"`/]\w|`|\.toml)", re.IGNORECASE)
+"""The British spelling, but in names: of files, cases and metals."""
+
+
+def test_prose_spells_aluminum():
+    """Titles of cases and metals, and pages outside of code: two spellings look like two metals."""
+    prose = {name: re.sub(r"```.*?```", "", text, flags=re.DOTALL) for name, text in TEXTS.items()}
+    lines = [
+        f"{name}: {line}"
+        for name, text in prose.items()
+        for line in text.splitlines()
+        if name.endswith(".md") or (name.startswith("src/") and line.startswith("title ="))
+    ]
+    assert len(lines) > 1000
+    assert [line for line in lines if SPELLING.search(line)] == []
+    assert SPELLING.search("of pure aluminium.")
+    assert not SPELLING.search("`dlip-aluminium`, material=aluminium, aluminium.csv, `aluminium`")

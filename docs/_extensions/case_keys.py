@@ -219,6 +219,8 @@ def _shown(value: Any, schema: Schema) -> str:
         return f"[{', '.join(shown)}]"
     if unit != "1" and isinstance(value, int | float):
         return f'"{format_quantity(value, unit, digits=12)}"'
+    if isinstance(value, float):
+        return json.dumps(float(f"{value:.6g}"))  # seven ninths has no end
     return json.dumps(value, ensure_ascii=False)
 
 

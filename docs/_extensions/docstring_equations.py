@@ -1,4 +1,5 @@
-"""Sets the indented equations of docstrings as they stand, in a fixed-width block."""
+"""Sets the indented equations of docstrings as they stand, in a fixed-width block, and keeps the
+first sentence of an attribute whole."""
 
 import re
 from typing import Any
@@ -29,7 +30,26 @@ def process(_app, _what, _name, _object, _options, lines: list[str]) -> None:
     lines[:] = set_equations(lines)
 
 
+def join_sentence(lines: list[str]) -> list[str]:
+    """The lines of an attribute with what stands before its first colon back in its sentence.
+
+    Napoleon takes "Density [kg/m^3]: at T_0." for a type and a text; types are annotations here.
+    """
+    taken = next((line for line in lines if line.startswith(":type: ")), None)
+    if taken is None:
+        return lines
+    first, *rest = [line for line in lines if line is not taken]
+    return [f"{taken.removeprefix(':type: ')}: {first}", *rest]
+
+
+def process_attribute(_app, what, _name, _object, _options, lines: list[str]) -> None:
+    """Handler of `autodoc-process-docstring`, for what has no sections."""
+    if what in ("attribute", "data", "property"):
+        lines[:] = join_sentence(lines)
+
+
 def setup(app: Any) -> dict[str, bool]:
-    """Called by Sphinx; before napoleon reads the sections."""
+    """Called by Sphinx; before napoleon reads the sections, and after."""
     app.connect("autodoc-process-docstring", process, priority=400)
+    app.connect("autodoc-process-docstring", process_attribute, priority=600)
     return {"parallel_read_safe": True}

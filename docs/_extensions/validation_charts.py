@@ -48,10 +48,10 @@ def draw_charts(states: Sequence[State], folder: Path) -> None:
 def judged(record: Mapping[str, Any]) -> dict[str, float]:
     """By quantity the difference over the tolerance of each number that is met or missed."""
     rows = [row for row in record["rows"] if row["verdict"] is not None and not row["own"]]
-    return {row["quantity"]: share for row in rows if (share := _share(row)) is not None}
+    return {row["quantity"]: share for row in rows if (share := share_of(row)) is not None}
 
 
-def _share(row: Mapping[str, Any]) -> float | None:
+def share_of(row: Mapping[str, Any]) -> float | None:
     """Difference over tolerance; None where a row is judged otherwise than by a difference."""
     wanted = row["reference"] if row["reference"] is not None else row["published"]
     numbers = (wanted, row["computed"], row["tolerance"])

@@ -3,7 +3,7 @@
 import re
 from typing import Any
 
-from validation_charts import judged
+from validation_charts import judged, share_of
 from validation_table import NOT_MET, UNEXPLAINED, anchor, label, number, plain, table
 
 from lasersph.validation.records import State
@@ -15,6 +15,8 @@ ROUND_OFF = 1e-9
 end at 1e-13."""
 FEW = 8
 """Rows that are not folded, whatever they say: a table this short hides nothing."""
+MOST_OPEN = 16
+"""Rows that are open: a screen of them. Of more the ones stay that use most of their tolerance."""
 
 
 def validation_page(state: State, readme: str) -> str:
@@ -72,7 +74,7 @@ def _origin(record: dict[str, Any]) -> str:
 
 
 def _numbers(state: State, record: dict[str, Any]) -> list[str]:
-    """The judged numbers, with those folded that agree in every digit shown or are only shown."""
+    """The judged numbers; folded are those far inside their tolerance, equal and shown ones."""
     rows, notes = record["rows"], _notes(record["rows"])
     judged_rows = [row for row in rows if row["verdict"] is not None and not row["own"]]
     shown = [row for row in rows if row["verdict"] is None or row["own"]]
@@ -82,21 +84,44 @@ def _numbers(state: State, record: dict[str, Any]) -> list[str]:
     parts = ["## Numbers"]
     if judged(record):
         parts.append(f"![{state.name}: difference over tolerance](../validation-{state.name}.svg)")
-    open_rows = [row for row in judged_rows if row not in equal]
+    unequal = [row for row in judged_rows if row not in equal]
+    open_rows, near = _worst(unequal)
     if open_rows:
         parts.append(_table(open_rows, notes))
-    for group, words in ((equal, "judged and equal in every digit shown"), (shown, "not judged")):
+    groups = {
+        "judged, which use less of their tolerance": near,
+        "judged and equal in every digit shown": equal,
+        "not judged": shown,
+    }
+    for words, group in groups.items():
         if group:
             parts.append(_folded(f"{len(group)} more numbers, {words}", _table(group, notes)))
     parts.append("\n".join(f"- ({k}) {plain(text)}" for text, k in notes.items()))
     return parts
 
 
+def _worst(rows: list[dict[str, Any]]) -> tuple[list[dict[str, Any]], list[dict[str, Any]]]:
+    """The rows that stay open, in their order, and the others.
+
+    Open are what failed and what is judged otherwise than by a difference, then those with the
+    largest difference over tolerance.
+    """
+    if len(rows) <= MOST_OPEN + FEW:
+        return rows, []
+    shares = [share_of(row) for row in rows]
+    ranks = [2.0 if not row["verdict"] else 1.5 if share is None else share
+             for row, share in zip(rows, shares, strict=True)]  # fmt: skip
+    least = sorted(ranks, reverse=True)[MOST_OPEN - 1]
+    pairs = list(zip(rows, ranks, strict=True))
+    far = [row for row, rank in pairs if rank < least]
+    return [row for row, rank in pairs if rank >= least], far
+
+
 def _table(rows: list[dict[str, Any]], notes: dict[str, int]) -> str:
-    """The numbers, without columns in which none of them has anything."""
+    """The numbers without empty columns, in a box whose rows a telephone stacks."""
     columns = list(zip(HEAD, *(_cells(row, notes) for row in rows), strict=True))
     head, *cells = zip(*(column for column in columns if any(column[1:])), strict=True)
-    return table(head, cells)
+    return f'<div class="numbers">\n\n{table(head, cells)}\n\n</div>'
 
 
 def _is_equal(row: dict[str, Any]) -> bool:

@@ -136,6 +136,16 @@ GALLERY = (
         _plots("flow_map"),
     ),
     _entry(
+        "spot-relief",
+        "The dimple of one pulse",
+        "Height of the surface through the middle of a spot, while its melt flows and freezes.",
+        ("lasersph run spot-steel --out runs/spot",),
+        "runs/spot/figures/relief.png",
+        _case("spot-steel"),
+        f"{RECIPES}.melt_pool",
+        _plots("relief"),
+    ),
+    _entry(
         "steel-temperature",
         "How hot, and for how long",
         "The surface boils at the maximum of the light and stays solid where it is dark.",

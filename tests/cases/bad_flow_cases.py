@@ -46,6 +46,9 @@ BAD_FLOW_CASES = {
     "flux in K": (RIGHT, 'right = "prescribed-flux"\nright_flux = "3 K"', ':25: boundaries.right_flux: "3 K" is a temperature, not a heat flux; write e.g. "1e6 W/m^2"'),
     "flux through a face of given temperature": ('right_temperature = "299.5 K"', 'right_flux = "3 W/m^2"', ':25: boundaries.right_flux: says nothing where right = "fixed-temperature"; leave it out, or set right to "prescribed-flux"'),
     "wave of an adiabatic surface": (RIGHT, RIGHT + '\nsurface_temperature_wave = { amplitude = "1 K", period = "1 m" }', ':26: boundaries.surface_temperature_wave: says nothing where surface = "adiabatic"; write surface = "fixed-temperature"'),
+    "wave and bump": (RIGHT, RIGHT + '\nsurface = "fixed-temperature"\nsurface_temperature = "300 K"\nsurface_temperature_wave = { amplitude = "1 K", period = "1 m" }\nsurface_temperature_bump = { amplitude = "1 K", radius = "0.1 m" }', ":29: boundaries.surface_temperature_bump: contradicts surface_temperature_wave; leave one of them out"),
+    "bump of an adiabatic surface": (RIGHT, RIGHT + '\nsurface_temperature_bump = { amplitude = "1 K", radius = "0.1 m" }', ':26: boundaries.surface_temperature_bump: says nothing where surface = "adiabatic"; write surface = "fixed-temperature"'),
+    "bump that pushes a flat surface": (RIGHT, RIGHT + '\nsurface_pressure_bump = { amplitude = "1 Pa", radius = "0.1 m" }', ':26: boundaries.surface_pressure_bump: says nothing where the surface is flat; write surface = "moving" in [solver.flow], or leave it out'),
     # start and end
     "unknown start": (LID, LID + '\ninitial = { kind = "vortex" }', ':37: solver.flow.initial.kind: must be "rest" or "taylor-green" or "table", got "vortex"'),
     "start without a file": (LID, LID + '\ninitial = { kind = "table" }', ":37: solver.flow.initial.path: missing; name a CSV file with columns x, z, u, w"),

@@ -5,6 +5,7 @@ BEAM = 'beam = { kind = "gaussian", radius_1e2 = "2 um" }'
 ENERGY = 'pulse_energy = "100 nJ"'
 BOTTOM = 'bottom = "adiabatic"'
 WIDTH = 'width = "6 um"'
+HELD = '\nsurface = "fixed-temperature"\nsurface_temperature = "400 K"'
 
 BAD_GEOMETRY_CASES = {
     "unknown geometry": (
@@ -22,20 +23,20 @@ BAD_GEOMETRY_CASES = {
         "dimensions = 3",
         ':23: solver.geometry: "axisymmetric" is a section (r, z), not 3-D; write dimensions = 2',
     ),
-    "section of a surface that moves": (
-        'kind = "conduction"\ndimensions = 2\ngeometry = "axisymmetric"',
-        'kind = "melt-pool"\ngeometry = "axisymmetric"\nflow = { surface = "moving" }',
-        ':23: solver.flow.surface: "moving" is computed in "planar" blocks so far; write surface = "flat" in a section (r, z)',
-    ),
     "published pressure of a section": (
         'kind = "conduction"\ndimensions = 2\ngeometry = "axisymmetric"',
         'kind = "melt-pool"\ngeometry = "axisymmetric"\npressure = "published"',
         ':23: solver.pressure: "published" is the matrix of a plane; leave it out in a section (r, z)',
     ),
-    "section of a box": (
+    "wall on the axis of a box": (
         'kind = "conduction"\ndimensions = 2\ngeometry = "axisymmetric"',
-        'kind = "melt-pool"\nphase_change = false\ngeometry = "axisymmetric"\nflow = { bottom = "no-slip" }',
-        ':24: solver.flow: boxes of liquid are "planar" so far; leave [solver.flow] or geometry out',
+        'kind = "melt-pool"\nphase_change = false\ngeometry = "axisymmetric"\nflow = { left = "free-slip" }',
+        ":24: solver.flow.left: the left side of a section (r, z) is its axis; leave it out",
+    ),
+    "flow of a plane around an axis": (
+        'kind = "conduction"\ndimensions = 2\ngeometry = "axisymmetric"',
+        'kind = "melt-pool"\nphase_change = false\ngeometry = "axisymmetric"\nflow = { initial = { kind = "taylor-green", speed = "1 m/s" } }',
+        ":24: solver.flow.initial: is the flow of a plane; leave it out in a section (r, z), which starts at rest",
     ),
     "section of ablation": (
         'kind = "conduction"\ndimensions = 2',
@@ -61,6 +62,33 @@ BAD_GEOMETRY_CASES = {
         BOTTOM,
         BOTTOM + '\nright = "periodic"',
         ':19: boundaries.right: nothing repeats along r; write right = "adiabatic"',
+    ),
+    "wave along r": (
+        BOTTOM,
+        BOTTOM + HELD + '\nsurface_temperature_wave = { amplitude = "1 K", period = "2 um" }',
+        ":21: boundaries.surface_temperature_wave: has a period along x, and nothing repeats along r; write surface_temperature_bump instead",
+    ),
+    "wave of vapor along r": (
+        BOTTOM,
+        BOTTOM + '\nsurface_mass_flux_wave = { amplitude = "1 kg/(m^2 s)", period = "2 um" }',
+        ":19: boundaries.surface_mass_flux_wave: has a period along x, and nothing repeats along r; leave it out",
+    ),
+    "bump wider than the block": (
+        BOTTOM,
+        BOTTOM + HELD + '\nsurface_temperature_bump = { amplitude = "1 K", radius = "7 um" }',
+        ":21: boundaries.surface_temperature_bump.radius: 7 um reaches beyond the block, which ends at 6 um; write a smaller one, or a larger domain.width",
+    ),
+    "bump of a negative radius": (
+        BOTTOM,
+        BOTTOM + HELD + '\nsurface_temperature_bump = { amplitude = "1 K", radius = "-1 um" }',
+        ':21: boundaries.surface_temperature_bump.radius: must be greater than 0, got "-1 um"',
+    ),
+    "bump of heat alone that ends": (
+        BOTTOM,
+        BOTTOM
+        + HELD
+        + '\nsurface_temperature_bump = { amplitude = "1 K", radius = "1 um", end = "1 ns" }',
+        ':21: boundaries.surface_temperature_bump: start and end need [solver] kind = "melt-pool"; leave them out',
     ),
     "beam off the axis": (
         BEAM,

@@ -127,6 +127,15 @@ LASER = {
         "[['300 K', 0.2], ['3000 K', 0.2]]",
         beside=("laser.reflectivity={ table = [['300 K', 0.5], ['3000 K', 0.5]] }",),
     ),
+    "laser.absorptivity": alone("0.1"),
+    "laser.absorptivity.table": alone(
+        "[['300 K', 0.2], ['3000 K', 0.2]]",
+        beside=("laser.absorptivity={ table = [['300 K', 0.5], ['3000 K', 0.5]] }",),
+    ),
+    "laser.absorptivity.over_time": alone(
+        "[['0 ns', 0.2], ['1 ns', 0.2]]",
+        beside=("laser.absorptivity={ over_time = [['0 ns', 0.2], ['1 ns', 0.9]] }",),
+    ),
     "laser.wavelength": alone("532 nm"),
     "laser.position": alone("['0.4 um', '0 um']")
     + alone("['0.4 um', '0 um']", beside=(SPOT,))
@@ -210,6 +219,13 @@ SOLVER = {
 }
 
 
+CAP_NAMES = (
+    "amplitude = '10 nm', period = '5.05 um'",
+    "cap_height = '10 nm', cap_radius = '2 um'",
+)
+"""A wave, and a cap instead of it."""
+
+
 def waves() -> dict[str, list[Trial]]:
     """Trials of what is imposed on a surface along x."""
     given = {"temperature": "50 K", "pressure": "1 kPa", "mass_flux": "10 kg/(m^2 s)"}
@@ -222,10 +238,30 @@ def waves() -> dict[str, list[Trial]]:
         changes |= {"start": "0.4 ns", "end": "0.4 ns"}
         for part, value in changes.items():
             found[f"{key}.{part}"] = alone(value, beside=(wave,))
+    found |= bumps(given)
     start = "solver.flow.initial_surface={ amplitude = '10 nm', period = '5.05 um' }"
     found["solver.flow.initial_surface"] = alone(start.partition("=")[2])
     found["solver.flow.initial_surface.amplitude"] = alone("15 nm", beside=(start,))
     found["solver.flow.initial_surface.period"] = alone("2.525 um", beside=(start,))
+    bump, cap = (start.replace(*names) for names in (("period = '5", "radius = '2"), CAP_NAMES))
+    found["solver.flow.initial_surface.radius"] = alone("1 um", beside=(bump,))
+    found["solver.flow.initial_surface.cap_height"] = alone("5 nm", beside=(cap,))
+    found["solver.flow.initial_surface.cap_radius"] = alone("1 um", beside=(cap,))
+    return found
+
+
+def bumps(given: dict[str, str]) -> dict[str, list[Trial]]:
+    """Trials of what is imposed on a surface around x = 0, instead of the film's wave."""
+    found: dict[str, list[Trial]] = {}
+    dark = "boundaries.surface_temperature_wave="
+    for name in ("temperature", "pressure"):
+        key = f"boundaries.surface_{name}_bump"
+        bump = f"{key}={{ amplitude = '{given[name]}', radius = '1 um', end = '20 ns' }}"
+        found[key] = alone(bump.partition("=")[2], beside=(dark,))
+        changes = {"amplitude": given[name].replace(" ", "0 ", 1), "radius": "2 um"}
+        changes |= {"start": "0.4 ns", "end": "0.4 ns"}
+        for part, value in changes.items():
+            found[f"{key}.{part}"] = alone(value, beside=(dark, bump))
     return found
 
 

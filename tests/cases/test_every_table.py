@@ -23,7 +23,7 @@ LATER = (
     "laser.beam.shift",
 )
 """Keys that say when, or what a second pulse does: seen after more steps, or those whose name ends
-with `_wave.end`."""
+with `_wave.end` or `_bump.end`."""
 MORE_STEPS = 300
 BOILING_STEPS = 60
 UNTRIED = {
@@ -36,6 +36,7 @@ UNTRIED = {
     "laser.spot.scan_speed": "`check` says the overlap of the pulses from it",
     "solver.dimensions": "chooses another domain",
     "solver.geometry": "chooses another domain; tests/laws/test_axisymmetric_heat.py",
+    "laser.absorptivity.path": "a file; tests/unit/lasers/test_absorptivity.py",
     "laser.pulse.path": "a file; tests/unit/lasers/test_pulses.py",
     "solver.flow.initial.path": "a file; bad_flow_cases.py",
     "solver.flow.initial.rows": "filled in from the file",
@@ -143,7 +144,7 @@ def outcome(base, key: str, trial, steps: int) -> bool | None:
 def is_tried_in(label: str, key: str) -> bool:
     """Whether a key is tried in a small case: what acts on a surface of melt where there is some
     from the start, and what is not of a flow under light."""
-    if "_wave" in key:
+    if "_wave" in key or "_bump" in key:
         return label == "film"
     return label not in ("box", "film") or key.startswith("solver.flow")
 
@@ -151,7 +152,7 @@ def is_tried_in(label: str, key: str) -> bool:
 @pytest.mark.parametrize("key", TRIALS)
 def test_a_key_changes_something_or_is_refused(key, bases):
     """In each small case that takes it, and some case takes it."""
-    steps = MORE_STEPS if key in LATER or key.endswith("_wave.end") else STEPS
+    steps = MORE_STEPS if key in LATER or key.endswith(("_wave.end", "_bump.end")) else STEPS
     found = {
         (label, *trial): outcome(base, key, trial, steps)
         for label, base in bases.items()

@@ -66,6 +66,13 @@ def spot_in_section(backend):
     return found_by(spot_pool(half_ball, backend=backend)[1])
 
 
+def moving_spot(backend):
+    """The same below a surface that moves, with which its particles ride."""
+    metal = {"base": "steel-304-demuth", "surface_tension": 1.6}
+    solver = {"flow": {"surface": "moving"}, "vaporization": "plateau"}
+    return found_by(spot_pool(half_ball, backend=backend, material=metal, solver=solver)[1])
+
+
 def stiff_heat(backend):
     """Linear systems that factors and multigrid precondition."""
     operator, _ = system(backend, 24)
@@ -79,7 +86,8 @@ def stiff_heat(backend):
     return found
 
 
-CASES = (heated_box, flat_pool, lit_pool, moving_pool, lit_steel, spot_in_section, stiff_heat)
+SPOTS = (spot_in_section, moving_spot)
+CASES = (heated_box, flat_pool, lit_pool, moving_pool, lit_steel, *SPOTS, stiff_heat)
 
 
 @pytest.fixture(scope="module")

@@ -18,6 +18,11 @@ AXIS = """([times, pauses, pulses]) => import("./static/time_axis.js").then(({ T
   return { ends: axis.ends(), cut: axis.cut(history, [times]), marks: axis.marks(...axis.ends()) };
 })"""
 
+BEGUN = """([times, pulses]) => import("./static/time_axis.js").then(({ TimeAxis }) => {
+  const history = { columns: { time_s: times }, pauses: [], spans: () => [[times[0], times[1]]] };
+  return new TimeAxis([{ history, pulses }], 1).ends();
+})"""
+
 GROWN = """() => import("./static/charts.js").then(async ({ lineChart }) => {
   const over = { unit: "s", words: "time", ends: () => [0, 9] };
   const drawn = async () => {
@@ -101,6 +106,13 @@ def test_pauses_are_cut_out(open_page, address):
     assert places == pytest.approx([1e-8, 1e-7, 2e-7, 2.06e-7, 2.12e-7, 4.12e-7])
     assert values == [*times[:3], None, *times[3:]]
     assert [words for _, words in found["marks"]] == ["pulse 1", "+100 ns", "pulse 2", "+100 ns"]
+
+
+def test_first_pulse_fills_the_axis_while_it_is_computed(open_page, address):
+    """Pauses that nothing was computed in yet have no place beside it; one pulse keeps its end."""
+    page = open_page(address).page
+    assert page.evaluate(BEGUN, [[1e-8, 3e-8], [0.0, PERIOD]]) == [0, 3e-8]
+    assert page.evaluate(BEGUN, [[1e-8, 3e-8], []]) == [0, 1]
 
 
 def test_chart_that_began_with_one_row_shows_all(open_page, address):

@@ -83,6 +83,23 @@ def test_times_of_a_train_fit_a_telephone(page, tmp_path):
     assert page.evaluate(BROKEN_NUMBERS) == []
 
 
+def test_two_runs_beside_each_other_fit_a_telephone(page, tmp_path):
+    """What a number is stands above both numbers and their difference."""
+    head = ("", "relief", "more", "difference")
+    name = "largest depth of completely fluid metal (f_m = 1)"
+    rows = [(name, "451 nm", "594.4 nm", "+143.4 nm (+32 %)")]
+    path = tmp_path / "two.html"
+    path.write_text(report_document("Two runs", [table(rows, head)]), "utf-8")
+    page.goto(path.as_uri())
+    lines = """[...document.querySelectorAll("tr:last-child td")].map((cell) =>
+      cell.getBoundingClientRect()).map(({ y, right }) => [y, right])"""
+    for width, count in ((390, 2), (1400, 1)):
+        page.set_viewport_size({"width": width, "height": 800})
+        places = page.evaluate(lines)
+        assert max(right for _, right in places) <= width
+        assert len({y for y, _ in places}) == count
+
+
 def test_without_webgl_the_picture_leads(page_without_webgl, report, keep):
     """The page says so, and the still picture comes before the numbers."""
     page = page_without_webgl

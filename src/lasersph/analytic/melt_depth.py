@@ -75,7 +75,7 @@ def melt_depth(
     melt_fraction: ArrayLike,
     density: float,
     absorption_coefficient: float,
-    reflectivity: Callable[[Array], Array] | float,
+    reflectivity: Callable[[Array, float, float], Array] | float,
     fluence: ArrayLike,
     delivered: Delivered,
     end_time: float,
@@ -90,7 +90,7 @@ def melt_depth(
         enthalpy, temperature, potential, melt_fraction: nodes of the caloric curve [J/kg, K, W/m,
             1], from the initial state (h = 0) up; end segments are extended.
         density: rho [kg/m^3]. absorption_coefficient: alpha [1/m], inf for surface absorption.
-        reflectivity: R, or a function of the surface temperatures.
+        reflectivity: R, or a function of the surface temperatures and of begin and end of a step.
         fluence: incident energy per area of one pulse [J/m^2]: the peak, or one value for each
             column next to each other, symmetric at both ends, each `column_width` [m] wide.
         delivered: share of one pulse's energy arriving between two times [s].
@@ -116,7 +116,7 @@ def melt_depth(
     block = _Block(faces, columns.size, density, column_width, vapor)
     if not callable(reflectivity):
         constant = float(reflectivity)
-        reflectivity = lambda T: np.full_like(T, constant)  # noqa: E731
+        reflectivity = lambda T, begin, end: np.full_like(T, constant)  # noqa: E731
     alpha = absorption_coefficient
 
     # share of the light in each cell: what is left at its upper face less that at its lower
@@ -139,7 +139,7 @@ def melt_depth(
     while now < end_time:
         step = schedule.step(now)
         # light by the reflectivity of the surface before the step, then one implicit step
-        absorbed = columns * (1.0 - reflectivity(curve.temperature(h[:, 0])))
+        absorbed = columns * (1.0 - reflectivity(curve.temperature(h[:, 0]), now, now + step))
         heat = np.outer(absorbed * delivered(now, now + step), absorbed_share)
         h = block.advance(h, heat, step, curve)
         now += step

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Annotated, Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field, ValidationInfo, model_validator
 
-from lasersph.analytic.taylor_green import TaylorGreen
-from lasersph.input import Length, Model, Velocity, refusal
+from lasersph.input import Length, Model, Velocity, refusal, with_rows_of_file
 
 Array = NDArray[np.float64]
 Box = tuple[tuple[float, float], tuple[float, float]]
@@ -38,6 +36,8 @@ class TaylorGreenFlow(Model):
 
     def velocity(self, position: Array, box: Box) -> Array:
         """(2, n) velocity [m/s] at positions (2, n) [m] in a box ((x0, x1), (z0, z1)) [m]."""
+        from lasersph.analytic.taylor_green import TaylorGreen  # few cases start with them
+
         period = self.period or box[0][1] - box[0][0]
         return TaylorGreen(self.speed, period, viscosity=0.0).velocity(position)
 
@@ -57,14 +57,7 @@ class TabulatedFlow(Model):
     @classmethod
     def _fill(cls, data: Any, info: ValidationInfo) -> Any:
         """Rows from the file, which counts from the folder of the case file."""
-        if isinstance(data, dict) and isinstance(data.get("path"), str) and not data.get("rows"):
-            from lasersph.input.csv_rows import read_rows  # few cases name a file
-
-            folder = (info.context or {}).get("folder") or Path()
-            return data | {
-                "rows": read_rows(Path(folder) / Path(data["path"]).expanduser(), COLUMNS)
-            }
-        return data
+        return with_rows_of_file(data, info, COLUMNS)
 
     @model_validator(mode="after")
     def _check_rows(self) -> TabulatedFlow:

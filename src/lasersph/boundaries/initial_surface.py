@@ -1,15 +1,18 @@
-"""Heights that a surface which moves starts from: a wave, or the relief that a run has left."""
+"""Heights that a surface which moves starts from: a wave, a bump, a cap, or the relief that a run
+has left."""
 
 from __future__ import annotations
 
-from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field, ValidationInfo, model_validator
 
-from lasersph.input import Length, Model, refusal
+from lasersph.input import Length, Model, format_quantity, refusal, with_rows_of_file
+
+if TYPE_CHECKING:
+    from lasersph.boundaries.surface_shapes import SurfaceShape
 
 Array = NDArray[np.float64]
 COLUMNS = ("x_m", "height_m")
@@ -22,13 +25,45 @@ profile of the flow."""
 BEYOND = 1.0
 """Widths of its columns by which a relief may end before the surface does. Geometry: columns have
 heights in their middle, and those of another run may be wider."""
+SHAPE_KEYS = ("amplitude", "period", "radius", "cap_height", "cap_radius")
+"""Keys of a wave, a bump and a cap."""
+PARTNERS = {
+    "amplitude": ("period", 'period = "5 um" for a wave, or radius = "5 um" for a bump'),
+    "period": ("amplitude", 'amplitude = "50 nm"'),
+    "radius": ("amplitude", 'amplitude = "50 nm"'),
+    "cap_height": ("cap_radius", 'cap_radius = "2 um"'),
+    "cap_radius": ("cap_height", 'cap_height = "50 nm"'),
+}
+"""Key that each key of a shape needs beside it, with an example."""
+SHAPES = (("amplitude", "period"), ("amplitude", "radius"), ("cap_height", "cap_radius"))
+SHAPES_IN_WORDS = (
+    "amplitude and period of a wave, amplitude and radius of a bump, or cap_height and cap_radius"
+)
 
 
 class InitialSurface(Model):
-    """Height of the surface at the start: amplitude cos(2 pi x / period), or that of a file."""
+    """Height of the surface at the start: a wave amplitude cos(2 pi x / period), a bump amplitude
+    exp(-r^2 / radius^2), the cap of a sphere (of a cylinder in a plane), or that of a file."""
 
-    amplitude: Length | None = Field(default=None, description="of a wave, at x = 0")
+    amplitude: Length | None = Field(
+        default=None, description="of a wave, at x = 0; of a bump, at r = 0"
+    )
     period: Annotated[Length, Field(gt=0)] | None = Field(default=None, description="of a wave")
+    radius: Annotated[Length, Field(gt=0)] | None = Field(
+        default=None,
+        exclude_if=lambda given: given is None,
+        description="of a bump, where it has fallen to 1/e",
+    )
+    cap_height: Length | None = Field(
+        default=None,
+        exclude_if=lambda given: given is None,
+        description="of a cap, at r = 0; negative for a hollow",
+    )
+    cap_radius: Annotated[Length, Field(gt=0)] | None = Field(
+        default=None,
+        exclude_if=lambda given: given is None,
+        description="of a cap, of the disc that it covers",
+    )
     path: str = Field(
         default="",
         exclude_if=lambda given: not given,
@@ -44,23 +79,30 @@ class InitialSurface(Model):
     @classmethod
     def _fill(cls, data: Any, info: ValidationInfo) -> Any:
         """Rows from the file, which counts from the folder of the case file."""
-        if isinstance(data, dict) and isinstance(data.get("path"), str) and not data.get("rows"):
-            from lasersph.input.csv_rows import read_rows  # few cases name a file
-
-            folder = (info.context or {}).get("folder") or Path()
-            file = Path(folder) / Path(data["path"]).expanduser()
-            return data | {"rows": read_rows(file, COLUMNS)}
-        return data
+        return with_rows_of_file(data, info, COLUMNS)
 
     @model_validator(mode="after")
     def _check(self) -> InitialSurface:
-        is_wave = (self.amplitude is not None, self.period is not None)
-        if self.rows and any(is_wave):
-            # a wave has both of its keys or none
-            raise refusal(("path", "contradicts the wave beside it; leave it out"))
-        if any(is_wave) and not all(is_wave):
-            key, example = ("period", "5 um") if is_wave[0] else ("amplitude", "50 nm")
-            raise refusal((key, f'is missing; write e.g. {key} = "{example}"'))
+        given = [key for key in SHAPE_KEYS if getattr(self, key) is not None]
+        if self.rows and given:
+            raise refusal(("path", f"contradicts {given[0]} beside it; leave one of them out"))
+        # Two keys belong together; others are of two shapes.
+        if len(given) == 1:
+            partner, example = PARTNERS[given[0]]
+            raise refusal((partner, f"is missing; write e.g. {example}"))
+        if given and tuple(given) not in SHAPES:
+            raise refusal(
+                (given[-1], f"is not of one shape with {given[0]}; write {SHAPES_IN_WORDS}")
+            )
+        # A cap that is higher than half of a sphere has two heights at one place.
+        if abs(self.cap_height or 0.0) >= (self.cap_radius or np.inf):
+            raise refusal(
+                (
+                    "cap_height",
+                    "is that of half a sphere or more; write less than cap_radius, "
+                    f"{format_quantity(self.cap_radius or 0.0, 'm')}",
+                )
+            )
         if self.rows and (len(self.rows) < 2 or not np.all(np.diff(self.x) > 0.0)):
             raise refusal(("path", "needs two rows or more whose x_m rises"))
         return self
@@ -70,30 +112,55 @@ class InitialSurface(Model):
         """Places of the rows [m]."""
         return np.array([row[0] for row in self.rows])
 
-    def at(self, x: NDArray[np.floating], width: float = 0.0) -> Array:
-        """Height [m] at x [m]; of a wave the mean over columns of a width [m] around x."""
-        if self.rows:
-            return np.interp(x, self.x, [row[1] for row in self.rows])
-        if self.amplitude is None or self.period is None:
-            return np.zeros(np.shape(x))
-        # the mean of a cosine over a width is the cosine times sinc
-        wave = np.cos(2.0 * np.pi * np.asarray(x, float) / self.period)
-        return self.amplitude * np.sinc(width / self.period) * wave
+    @property
+    def heights(self) -> Array:
+        """Heights of the rows [m]."""
+        return np.array([row[1] for row in self.rows])
 
     @property
-    def extent(self) -> float:
-        """Largest distance from z = 0 [m]."""
-        return max([abs(self.amplitude or 0.0), *(abs(row[1]) for row in self.rows)])
+    def shape(self) -> SurfaceShape | None:
+        """The wave, the bump or the cap; None for heights of a file, or none."""
+        from lasersph.boundaries.surface_shapes import Bump, Cap, Wave  # few cases have one
+
+        if self.amplitude is not None and self.period is not None:
+            return Wave(self.amplitude, self.period)
+        if self.amplitude is not None and self.radius is not None:
+            return Bump(self.amplitude, self.radius)
+        if self.cap_height is not None and self.cap_radius is not None:
+            return Cap(self.cap_height, self.cap_radius)
+        return None
+
+    def at(self, x: NDArray[np.floating], width: float = 0.0, *, is_ring: bool = False) -> Array:
+        """Height [m] at x [m], any shape.
+
+        Args:
+            width: of columns around x, in the mean over which a shape is taken [m]. is_ring:
+                whether these are rings about x = 0.
+        """
+        place: Array = np.asarray(x, np.float64)
+        if self.shape is None:
+            return np.interp(place, self.x, self.heights) if self.rows else np.zeros(place.shape)
+        if width == 0.0:
+            return self.shape.at(place)
+        half = 0.5 * width
+        return self.shape.mean(place - half, place + half, is_ring=is_ring)
+
+    @property
+    def depth(self) -> float:
+        """How far it begins below z = 0 at most [m]; of a file, its largest distance from there."""
+        if self.shape is None:
+            return max((abs(height) for height in self.heights), default=0.0)
+        return -self.shape.lowest
 
     def steepest(self, width: float) -> float:
         """Largest slope; of the rows of a file over a width [m]."""
-        if self.rows:
-            rise = self.at(self.x + 0.5 * width) - self.at(self.x - 0.5 * width)
-            return float(np.max(np.abs(rise))) / width
-        return 2.0 * np.pi * self.extent / self.period if self.period else 0.0
+        if self.shape is not None:
+            return self.shape.steepest
+        rise = self.at(self.x + 0.5 * width) - self.at(self.x - 0.5 * width)
+        return float(np.max(np.abs(rise), initial=0.0)) / width
 
     def covers(self, low: float, high: float) -> bool:
-        """Whether it has heights from x = low to high [m]; a wave has everywhere."""
+        """Whether it has heights from x = low to high [m]; all but a file have everywhere."""
         if not self.rows:
             # columns at the ends of the relief reach half of their width further
             return True

@@ -20,17 +20,20 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field, model_validator
 
+from lasersph.boundaries.surface_drives import (
+    MassFluxWave,
+    PressureBump,
+    PressureWave,
+    TemperatureBump,
+    TemperatureWave,
+)
 from lasersph.input import (
     Fraction,
     HeatFlux,
     HeatTransferCoefficient,
-    Length,
-    MassFlux,
     Model,
     Pressure,
     Temperature,
-    TemperatureDifference,
-    Time,
     refusal,
 )
 from lasersph.materials import Material
@@ -67,56 +70,6 @@ class Surroundings(NamedTuple):
         return np.array([self.temperature, self.convection, self.emissivity])
 
 
-class SurfaceWave(Model):
-    """A quantity on the surface with amplitude cos(2 pi x / period), from `start` to `end`."""
-
-    amplitude: float = Field(description="at x = 0")
-    period: Annotated[Length, Field(gt=0)] = Field(description="wavelength along x")
-    start: Annotated[Time, Field(ge=0)] = Field(default=0.0, description="when it sets in")
-    end: Annotated[Time, Field(gt=0)] | None = Field(
-        default=None, description="when it ends; default: never"
-    )
-
-    @model_validator(mode="after")
-    def _check_times(self) -> SurfaceWave:
-        if self.end is not None and self.end <= self.start:
-            raise refusal(("end", "is not after start; give a later end, or none"))
-        return self
-
-    def at(self, x: NDArray[np.floating]) -> Array:
-        """The wave at x [m] while it acts, any shape."""
-        return self.amplitude * np.cos(2.0 * np.pi * np.asarray(x, float) / self.period)
-
-    def share_of(self, begin: float, end: float) -> float:
-        """Part of the time from `begin` to `end` [s] in which it acts; of an instant 0 or 1."""
-        last = np.inf if self.end is None else self.end
-        if end <= begin:
-            return float(self.start <= begin < last)
-        return max(min(end, last) - max(begin, self.start), 0.0) / (end - begin)
-
-    def mean_over(self, x: NDArray[np.floating], begin: float, end: float) -> Array:
-        """The wave at x [m], averaged over the time from `begin` to `end` [s]."""
-        return self.share_of(begin, end) * self.at(x)
-
-
-class TemperatureWave(SurfaceWave):
-    """Variation of a given temperature of the surface."""
-
-    amplitude: TemperatureDifference = Field(description="at x = 0")
-
-
-class PressureWave(SurfaceWave):
-    """A pressure on a surface that moves."""
-
-    amplitude: Pressure = Field(description="at x = 0")
-
-
-class MassFluxWave(SurfaceWave):
-    """Mass that leaves a surface that moves, per its true area."""
-
-    amplitude: MassFlux = Field(description="at x = 0")
-
-
 class Boundaries(Model):
     """Conditions for heat at surface, bottom and sides."""
 
@@ -129,8 +82,18 @@ class Boundaries(Model):
     surface_temperature_wave: TemperatureWave | None = Field(
         default=None, description="added to surface_temperature"
     )
+    surface_temperature_bump: TemperatureBump | None = Field(
+        default=None,
+        exclude_if=lambda given: given is None,
+        description="added to surface_temperature, instead of a wave",
+    )
     surface_pressure_wave: PressureWave | None = Field(
         default=None, description="a pressure on a surface that moves"
+    )
+    surface_pressure_bump: PressureBump | None = Field(
+        default=None,
+        exclude_if=lambda given: given is None,
+        description="a pressure on a surface that moves, instead of a wave",
     )
     surface_mass_flux_wave: MassFluxWave | None = Field(
         default=None,
@@ -213,9 +176,18 @@ class Boundaries(Model):
                 f'is missing where surface = "{self.surface}"; write e.g. surface_temperature = '
                 '"1000 K"',
             )
-        if self.surface_temperature_wave is not None and self.surface not in DIRICHLET:
+        for what in ("temperature", "pressure"):
+            yield from self._contradictory_drives(what)
+
+    def _contradictory_drives(self, what: str) -> Iterator[tuple[str, str]]:
+        """A wave and a bump of the same quantity, and a variation of what is not given."""
+        wave, bump = f"surface_{what}_wave", f"surface_{what}_bump"
+        given = [key for key in (wave, bump) if getattr(self, key) is not None]
+        if len(given) > 1:
+            yield bump, f"contradicts {wave}; leave one of them out"
+        if what == "temperature" and given and self.surface not in DIRICHLET:
             yield (
-                "surface_temperature_wave",
+                given[0],
                 f'says nothing where surface = "{self.surface}"; write '
                 'surface = "fixed-temperature"',
             )
@@ -240,7 +212,7 @@ class Boundaries(Model):
         return getattr(self, face, None) or self.sides
 
     def temperature_of(self, face: str, initial: float) -> float:
-        """Temperature of a face where it is given [K], without the surface's wave."""
+        """Temperature of a face where it is given [K], without what varies along the surface."""
         given = self._given(face, "temperature")
         return initial if given is None else given
 
@@ -252,10 +224,20 @@ class Boundaries(Model):
         Averaged over an interval of time [s].
         """
         mean = np.full(np.shape(x), self.temperature_of(face, initial))
-        wave = self.surface_temperature_wave
-        if wave is None or face != SURFACE:
+        drive = self.temperature_drive
+        if drive is None or face != SURFACE:
             return mean
-        return mean + wave.mean_over(x, *interval)
+        return mean + drive.mean_over(x, *interval)
+
+    @property
+    def temperature_drive(self) -> TemperatureWave | TemperatureBump | None:
+        """How a given temperature of the surface varies along it; None where it does not."""
+        return self.surface_temperature_wave or self.surface_temperature_bump
+
+    @property
+    def pressure_drive(self) -> PressureWave | PressureBump | None:
+        """Pressure on a surface that moves; None without."""
+        return self.surface_pressure_wave or self.surface_pressure_bump
 
     def flux_of(self, face: str) -> float:
         """Heat flux into the body through a face of prescribed flux [W/m^2], 0 at others."""

@@ -18,7 +18,7 @@ from lasersph.case.size import (
     size_of,
 )
 from lasersph.case.solver_choice import SELECTIVE_KEYS, moves_matter, no_axis, reader_of
-from lasersph.case.surface_checks import surface_problems
+from lasersph.case.surface_checks import key_of_drive, surface_problems
 from lasersph.input import CaseError, Model, format_quantity
 from lasersph.output.settings import SnapshotSchedule
 
@@ -180,10 +180,16 @@ def _faces(case: CaseContents) -> Iterator[tuple[str, str]]:
         yield "boundaries.sides", no_axis("x", 2, dimensions)
     elif dimensions == 2 and has_both and not is_default and _changed(boundaries, ("sides",)):
         yield "boundaries.sides", "says nothing where left and right are given; leave it out"
-    if dimensions == 1 and boundaries.surface_temperature_wave is not None:
+    if dimensions == 1 and boundaries.temperature_drive is not None:
         yield (
-            "boundaries.surface_temperature_wave",
+            f"boundaries.{key_of_drive(case, 'temperature')}",
             "varies along x, which a 1-D run does not have; write dimensions = 2 in [solver]",
+        )
+    if dimensions == 3 and boundaries.surface_temperature_bump is not None:
+        yield (
+            "boundaries.surface_temperature_bump",
+            "is computed in sections, where r is |x| or the distance from the axis; write "
+            "dimensions = 2 in [solver]",
         )
     if boundaries.surface == "periodic" and case.particles.arrangement == "graded":
         yield (

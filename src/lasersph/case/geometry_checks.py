@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
+from lasersph.boundaries.flow_conditions import AT_REST, FlowConditions, RestingFlow
 from lasersph.case.solver_choice import computes_flow, moves_matter
 from lasersph.input import format_quantity
 from lasersph.lasers import Laser
@@ -15,6 +16,13 @@ if TYPE_CHECKING:
 
 ROUND = 0.87
 """Smaller over larger width of a beam that counts as round. Source: [ISO11146-1]."""
+
+WAVES = {
+    "temperature": "write surface_temperature_bump instead",
+    "pressure": "write surface_pressure_bump instead",
+    "mass_flux": "leave it out",
+}
+"""Drives along x, and what to write instead of them along r."""
 
 
 def section_problems(case: CaseContents) -> Iterator[tuple[str, str]]:
@@ -31,23 +39,14 @@ def section_problems(case: CaseContents) -> Iterator[tuple[str, str]]:
             'matter that moves is computed in "planar" blocks; leave it out, or write kind = '
             '"melt-pool" or "conduction"',
         )
-    if case.surface_moves:
-        yield (
-            "solver.flow.surface",
-            '"moving" is computed in "planar" blocks so far; write surface = "flat" in a section '
-            "(r, z)",
-        )
-    elif case.flow is not None:
-        yield (
-            "solver.flow",
-            'boxes of liquid are "planar" so far; leave [solver.flow] or geometry out',
-        )
     if computes_flow(case.solver) and case.solver.pressure == "published":
         yield (
             "solver.pressure",
             '"published" is the matrix of a plane; leave it out in a section (r, z)',
         )
     yield from _block(case)
+    if case.flow is not None:
+        yield from _box(case.flow)
     if case.laser is not None:
         yield from _light(case, case.laser)
 
@@ -66,10 +65,29 @@ def _block(case: CaseContents) -> Iterator[tuple[str, str]]:
     for key in ("right", "sides"):
         if getattr(boundaries, key) == "periodic":
             yield f"boundaries.{key}", f'nothing repeats along r; write {key} = "adiabatic"'
-    if boundaries.surface_temperature_wave is not None:
+    # Waves along x; what is imposed on a section is a bump, and so is what it starts from.
+    for what, right in WAVES.items():
+        key = f"surface_{what}_wave"
+        if getattr(boundaries, key) is not None:
+            yield (
+                f"boundaries.{key}",
+                f"has a period along x, and nothing repeats along r; {right}",
+            )
+    if case.initial_surface is not None and case.initial_surface.period is not None:
         yield (
-            "boundaries.surface_temperature_wave",
-            "has a period along x, and nothing repeats along r; leave it out",
+            "solver.flow.initial_surface.period",
+            "is along x, and nothing repeats along r; write the radius of a bump instead",
+        )
+
+
+def _box(flow: FlowConditions) -> Iterator[tuple[str, str]]:
+    """What holds in a box that is all fluid, but not around an axis."""
+    if flow.left != AT_REST:
+        yield "solver.flow.left", "the left side of a section (r, z) is its axis; leave it out"
+    if flow.initial != RestingFlow():
+        yield (
+            "solver.flow.initial",
+            "is the flow of a plane; leave it out in a section (r, z), which starts at rest",
         )
 
 

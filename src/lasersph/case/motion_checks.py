@@ -132,7 +132,8 @@ def _light(case: CaseContents, solver: AblationSettings) -> Iterator[tuple[str, 
     rule = case.ejection
     if rule is None or rule.reflectivity is None:
         return
-    if case.laser.reflectivity not in (None, rule.reflectivity):
+    laser = case.laser
+    if laser.has_own_reflectivity and laser.reflectivity != rule.reflectivity:
         yield (
             "solver.ejection.preset",
             f'"{rule.preset}" means a reflectivity of {rule.reflectivity:g}, but [laser] has '

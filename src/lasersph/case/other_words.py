@@ -11,8 +11,8 @@ SLOPE = '; write surface_tension_slope = "-0.4 mN/(m K)" in [material]'
 OTHER_WORDS = MATERIAL_WORDS | {
     # material
     "emissivity": "material.optics.emissivity boundaries.emissivity",
-    "absorptivity": "; write reflectivity = 1 - absorptivity in [laser]",
-    "absorptance": "; write reflectivity = 1 - absorptance in [laser]",
+    "absorptivity": "laser.absorptivity",
+    "absorptance": "laser.absorptivity",
     **dict.fromkeys(SLOPES, SLOPE),
     # laser
     "wavelength": "laser.wavelength",

@@ -17,17 +17,16 @@ FEWEST_COLUMNS = 12
 """Columns of a line whose differences of fifth order see both of its ends."""
 SLOPE_COLUMNS = 6.0
 """Columns over which the slope of a relief from a file counts; single ones have noise."""
-SURFACE_FORCES = ("surface_pressure_wave", "surface_mass_flux_wave")
+SURFACE_FORCES = ("surface_pressure_wave", "surface_pressure_bump", "surface_mass_flux_wave")
 
 
 def surface_problems(case: CaseContents) -> Iterator[tuple[str, str]]:
     """(key, "what is wrong; what would be right") of all that concerns a surface that moves."""
-    # A wave that begins or ends in the run changes the flow, which only a pool follows.
-    wave, moves = case.boundaries.surface_temperature_wave, case.surface_moves
-    is_timed = wave is not None and (wave.start, wave.end) != (0.0, None)
-    if is_timed and not computes_flow(case.solver):
+    # A wave or bump that begins or ends in the run changes the flow, which only a pool follows.
+    drive, moves = case.boundaries.temperature_drive, case.surface_moves
+    if drive is not None and drive.is_timed and not computes_flow(case.solver):
         yield (
-            "boundaries.surface_temperature_wave",
+            f"boundaries.{key_of_drive(case, 'temperature')}",
             'start and end need [solver] kind = "melt-pool"; leave them out',
         )
     # Pressure and mass flux act on a surface that can give way.
@@ -38,10 +37,41 @@ def surface_problems(case: CaseContents) -> Iterator[tuple[str, str]]:
                 'says nothing where the surface is flat; write surface = "moving" in '
                 "[solver.flow], or leave it out",
             )
+    yield from _bumps(case)
     if moves:
         yield from _tension(case)
         yield from _shape(case)
         yield from _solver(case)
+
+
+def key_of_drive(case: CaseContents, what: str) -> str:
+    """Key of the wave or the bump that varies a quantity along the surface."""
+    wave = f"surface_{what}_wave"
+    return wave if getattr(case.boundaries, wave) is not None else f"surface_{what}_bump"
+
+
+def _bumps(case: CaseContents) -> Iterator[tuple[str, str]]:
+    """Bumps and caps that do not fit into the block."""
+    if case.solver.dimensions != 2:
+        return
+    faces, start = case.boundaries, case.initial_surface
+    reaches = {
+        "boundaries.surface_temperature_bump.radius": faces.surface_temperature_bump,
+        "boundaries.surface_pressure_bump.radius": faces.surface_pressure_bump,
+    }
+    found = {key: bump.radius for key, bump in reaches.items() if bump is not None}
+    if start is not None and start.shape is not None and start.shape.extent:
+        key = "radius" if start.radius else "cap_radius"
+        found[f"solver.flow.initial_surface.{key}"] = start.shape.extent
+    # The block from r = 0 outward.
+    (x,) = case.domain.lateral(case.geometry)
+    for key, radius in found.items():
+        if radius > x[1]:
+            yield (
+                key,
+                f"{format_quantity(radius, 'm')} reaches beyond the block, which ends at "
+                f"{format_quantity(x[1], 'm')}; write a smaller one, or a larger domain.width",
+            )
 
 
 def _tension(case: CaseContents) -> Iterator[tuple[str, str]]:
@@ -75,15 +105,16 @@ def _start(
 ) -> Iterator[tuple[str, str]]:
     """Whether a surface can begin as it is given."""
     # Liquid below the deepest place of the surface at the start.
-    key = "solver.flow.initial_surface." + ("path" if start.rows else "amplitude")
+    name = "path" if start.rows else "cap_height" if start.cap_height else "amplitude"
+    key = f"solver.flow.initial_surface.{name}"
     depth = case.domain.depth if case.flow is not None else case.particles.fine_depth
-    if depth is not None and depth - start.extent < MIN_LAYERS * case.particles.spacing:
-        what, right = "liquid", "a smaller amplitude"
+    if depth is not None and depth - start.depth < MIN_LAYERS * case.particles.spacing:
+        what, right = "liquid", "a shallower one"
         if case.flow is None:
             what, right = "the finest layers", "a larger particles.fine_depth"
         yield (
             key,
-            f"leaves {format_quantity(depth - start.extent, 'm')} of {what}, less than "
+            f"leaves {format_quantity(depth - start.depth, 'm')} of {what}, less than "
             f"{MIN_LAYERS} spacings; write {right}",
         )
     # A slope over a few columns; single points of a measured relief are noise.
@@ -91,8 +122,8 @@ def _start(
     if steepest > STEEPEST:
         yield (
             key,
-            f"is a slope of {steepest:.3g}, more than {STEEPEST:.0f}; write a smaller "
-            "amplitude or a longer period",
+            f"is a slope of {steepest:.3g}, more than {STEEPEST:.0f}; write a smaller one, or one "
+            "that is wider",
         )
     # A relief from a file must reach from side to side.
     if not start.covers(*x):

@@ -121,6 +121,16 @@ def _rows(material: Material) -> list[tuple[str, str, str, str]]:
         for phase, law in property_.laws().items():
             where = name if phase == "all" else f"{name}, {phase}"
             rows.append((where, _values(material, name, law), _span(law), law.source))
+    # Sulfur, and where it turns the slope of surface tension.
+    if material.sulfur > 0.0:
+        rows.append(
+            ("sulfur", f"{1e6 * material.sulfur:.3g} ppm", "", "note of the surface tension")
+        )
+        boiling = material.vaporization.temperature if material.vaporization else 3000.0
+        reversal = material.slope_reversal(boiling)
+        if reversal is not None:
+            what = "positive below, computed from surface tension and sulfur"
+            rows.append(("surface_tension_slope is 0", f"{reversal:.0f} K", "", what))
     for group, units in (
         ("melting", {"solidus": "K", "liquidus": "K", "latent_heat": "J/kg"}),
         (

@@ -11,7 +11,10 @@ from lasersph.cli.arguments import Out
 from lasersph.cli.failures import WrongCommand
 
 Ours = Annotated[
-    Path, typer.Argument(metavar="DIR", help="The folder of a texture, or of a run of one period.")
+    Path,
+    typer.Argument(
+        metavar="DIR", help="The folder of a texture, or of a run of one period or a round spot."
+    ),
 ]
 Profile = Annotated[
     Path,

@@ -43,6 +43,9 @@ ExportFormat = Annotated[
         "metrology (ISO 25178-72, -71)."
     ),
 ]
+Revolve = Annotated[
+    bool, typer.Option("--revolve", help="Write the body of a section (r, z) for ParaView instead.")
+]
 At = Annotated[
     str | None,
     typer.Option("--at", metavar="TIME", help="Take the closest snapshot; default: the last."),
@@ -66,6 +69,7 @@ def info(folder: RunFolder) -> None:
         rows = summary_rows(found.summary, found.uncertainty)
         _print_tables([rows[0], *light, *rows[1:]], _curves(found))
         _print_warnings(warning_texts(found.summary, found.events))
+        _print_note_on_older(found)
         print(f"{folder}: complete")
         return
     # One that is not has come to some time of its end.
@@ -75,6 +79,7 @@ def info(folder: RunFolder) -> None:
     known = [("case", found.case["title"]), *light, ("history", f"up to {now} of {end}")]
     _print_tables(known, _curves(found))
     _print_warnings(warning_texts(None, found.events))
+    _print_note_on_older(found)
     print(f"{folder}: not complete; continue it with lasersph run ... --out {folder} --resume")
 
 
@@ -88,6 +93,11 @@ def _print_tables(numbers: list[tuple[str, str]], curves: list[tuple[str, str]])
 def _print_warnings(texts: Sequence[str]) -> None:
     for text in texts:
         print(f"warning: {text}")
+
+
+def _print_note_on_older(run: Run) -> None:
+    if run.note_on_older is not None:
+        print(f"note: {run.note_on_older}")
 
 
 def _curves(run: Run) -> list[tuple[str, str]]:
@@ -180,18 +190,21 @@ def opened(folder: Path) -> Run:
         raise WrongCommand(str(error)) from None
 
 
-def export(folder: RunFolder, format: ExportFormat = "csv", at: At = None) -> None:
+def export(
+    folder: RunFolder, format: ExportFormat = "csv", at: At = None, revolve: Revolve = False
+) -> None:
     """Write the surface of a crater or a relief as CSV, STL, PLY, X3P or SDF.
 
     A crater goes to DIR/crater.FORMAT, a surface that moved to DIR/surface-profile.FORMAT: its
     profile, as STL or PLY extruded along the lines by its width; where half a period was computed,
-    the mirror image belongs to it. The height of a texture goes to DIR/height.FORMAT.
+    the mirror image belongs to it. The height of a texture goes to DIR/height.FORMAT. With
+    --revolve a section (r, z) goes to DIR/body.vtkhdf for ParaView, as the body that it stands for.
     """
     from lasersph.output import OutputError
     from lasersph.output.export import export as write_surface
 
     time = None if at is None else read_quantity("--at", at, "time")
     try:
-        print(write_surface(folder, format, at=time))
+        print(write_surface(folder, format, at=time, revolve=revolve))
     except OutputError as error:
         raise WrongCommand(str(error)) from None

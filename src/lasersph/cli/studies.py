@@ -113,7 +113,7 @@ def threshold(
     from lasersph.case import load_case
     from lasersph.cli.costs import say_cost
     from lasersph.input import KINDS, in_field_units
-    from lasersph.lasers.laser import AMOUNTS
+    from lasersph.lasers.laser_keys import AMOUNTS
     from lasersph.output.study_mark import StudyMark
     from lasersph.studies.fluence_threshold import usual_runs
     from lasersph.sweeps.points import find_key

@@ -14,7 +14,7 @@ from lasersph.input.formatting import (
     format_with_error,
     in_field_units,
 )
-from lasersph.input.model import Model, did_you_mean, nearest, refusal
+from lasersph.input.model import Model, did_you_mean, nearest, refusal, with_rows_of_file
 from lasersph.input.quantity import KINDS, Kind, QuantityError, parse_quantity
 from lasersph.input.types import (
     AbsorptionCoefficient,
@@ -108,4 +108,5 @@ __all__ = [
     "quantity_kind",
     "read_toml",
     "refusal",
+    "with_rows_of_file",
 ]

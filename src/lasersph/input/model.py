@@ -6,10 +6,11 @@ Unknown keys are refused with the nearest spelling; numbers are finite; defaults
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
+from pathlib import Path
 from typing import Any
 
-from pydantic import BaseModel, ConfigDict, model_validator
+from pydantic import BaseModel, ConfigDict, ValidationInfo, model_validator
 from pydantic_core import PydanticCustomError
 
 
@@ -36,6 +37,33 @@ class Model(BaseModel):
                     },
                 )
         return data
+
+
+def with_rows_of_file(
+    data: Any,
+    info: ValidationInfo,
+    columns: tuple[str, ...],
+    *,
+    key: str = "rows",
+    largest: Mapping[str, float] | None = None,
+) -> Any:
+    """Values of a model with the rows of the CSV file that `path` names, where no rows are given.
+
+    A path counts from the folder of the case file.
+
+    Args:
+        columns: names in the file, all in SI. key: under which the rows are kept. largest: of a
+            table over time, see `csv_rows.read_rows`; its times are then in s.
+    """
+    path = data.get("path") if isinstance(data, dict) else None
+    if not path or not isinstance(path, str) or data.get(key):
+        return data
+    from lasersph.input.csv_rows import read_rows  # few cases name a file
+
+    folder = (info.context or {}).get("folder") or Path()
+    rows = read_rows(Path(folder) / Path(path).expanduser(), columns, largest)
+    over_time = [(f"{row[0]!r} s", *row[1:]) for row in rows] if largest is not None else rows
+    return data | {key: over_time}
 
 
 def refusal(*problems: tuple[str, str]) -> PydanticCustomError:

@@ -102,9 +102,9 @@ class FirstHitLight:
         self._upper = self._lower + self.width[:, None]
         self.up = upward(self.dimension)
         self._above = {"up": self.up, "band": BAND * spacing}
+        self.material = material
         table = laser.reflectivity_table(material, COLDEST, HOTTEST)
         self._R_T, self._R_R = (backend.asarray(values) for values in table)
-        self._absorptivity = 1.0 - float(np.min(table[1]))
         # the tables have one entry more, for "no column"
         self._energy, self._top, self._covers = (backend.zeros(self.count + 1) for _ in range(3))
         self._shares: list[tuple[Array, Array]] = []
@@ -222,7 +222,13 @@ class FirstHitLight:
     def largest_flux(self, start: float, end: float) -> float:
         """Largest mean flux that a column may absorb from `start` to `end` [s], [W/m^2]."""
         density = self.laser.energy_density(self._lower, self._upper, start, end)
-        return self._absorptivity * float(np.max(density)) / (end - start)
+        absorptivity = 1.0 - float(np.min(self._reflectivities(start, end)))
+        return absorptivity * float(np.max(density)) / (end - start)
+
+    def _reflectivities(self, start: float, end: float) -> np.ndarray:
+        """R of the table over temperature in a step from `start` to `end` [s]."""
+        interval = (start, end)
+        return self.laser.reflectivity_table(self.material, COLDEST, HOTTEST, interval)[1]
 
     def shine(self, start: float, end: float) -> None:
         """Fix the light from `start` to `end` [s]; sets `incident` and `transmitted`."""
@@ -233,6 +239,9 @@ class FirstHitLight:
         self.incident = float(energy.sum())
         self.transmitted = float(energy[~self._is_hit].sum())
         backend.copy(backend.asarray(np.append(energy, 0.0)), self._energy)
+        # an absorptivity over time has one value in the step
+        if self.laser.absorbs_over_time:
+            backend.copy(backend.asarray(self._reflectivities(start, end)), self._R_R)
         self._distribute(self._energy)
 
     def _distribute(self, energy: Array) -> None:

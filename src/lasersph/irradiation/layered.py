@@ -64,6 +64,17 @@ def scale(V, factor):
     return factor * V
 
 
+def share_at_depth(x, V, column, area, width, tops, alpha):
+    """A_i s_i of a particle that keeps its column [m^(d-1)], with the exact share of its cell (8).
+
+    Args:
+        width: of the particle across the column [m]. tops: table of the places of the columns'
+            upper ends [m]. alpha: absorption coefficient [1/m].
+    """
+    depth, half = tops[column] - x[-1], 0.5 * V / width
+    return area * (exp(-alpha * max(depth - half, 0.0)) - exp(-alpha * (depth + half)))
+
+
 def absorb_light(share, column, columns):
     """Energy absorbed by a particle [J]: A_i s_i times the light that enters its column."""
     return share * columns[column]
@@ -89,6 +100,7 @@ class LayeredLight:
         count = filling.count
         self.deposit = backend.zeros(count)
         self.incident = self.reflected = self.transmitted = 0.0
+        self.alpha: float | None = None
         if laser is None:
             return
         width, surface = filling.width[:, :count], filling.surface
@@ -115,6 +127,7 @@ class LayeredLight:
             self._means = ring_means(laser, self.lower[0], self.upper[0])
         else:
             self._means = laser.resting_means(self.lower, self.upper)
+        self.material = material
         table = laser.reflectivity_table(material, COLDEST, HOTTEST)
         self._varies = bool(np.ptp(table[1]) > 0.0)
         R_T, R_R = map(backend.asarray, table)
@@ -129,6 +142,8 @@ class LayeredLight:
         self._over = backend.asarray(surface, "index") if filling.beside is not None else None
         self._T_s = backend.zeros(surface.size)
         self._surface: SurfaceColumns | None = None
+        self._stretched: dict[str, Array] = {}
+        self._cell = {"area": backend.asarray(area), "width": backend.asarray(width[0])}
         self._moving: dict[str, Array] = {}
         # particles move in 2-D, and only light that goes deep needs cells
         if filling.position.shape[0] == 2 and self.alpha is not None:
@@ -157,12 +172,30 @@ class LayeredLight:
         if self.laser is None:
             return
         density = self.laser.energy_density(self.lower, self.upper, start, end, self._means)
+        # an absorptivity over time has one value in the step
+        if self.laser.absorbs_over_time:
+            span, R_R = (COLDEST, HOTTEST), self._entering["R_R"]
+            _, R = self.laser.reflectivity_table(self.material, *span, (start, end))
+            self.backend.copy(self.backend.asarray(R), R_R)
         self.incident = float(np.sum(density * self.surface_area))
         self.backend.copy(self.backend.asarray(density), self.fluence)
 
     def reset(self) -> None:
         """Let the light meet particles on their lattice, as at the start."""
         self._surface = None
+
+    def stretch(self, position: Array, volume: Array, tops: Array) -> None:
+        """Let the light meet particles that keep their columns, which have been stretched.
+
+        Args:
+            position: (2, n) [m]. volume: (n,) [m^2]. tops: (columns,) their upper ends [m].
+        """
+        if self.alpha is None:
+            return
+        column, share = self._lattice["column"], self.backend.zeros(volume.shape[0])
+        fields = {"x": position, "V": volume, "column": column, **self._cell}
+        self.backend.pointwise(share_at_depth, fields, share, tops=tops, alpha=self.alpha)
+        self._stretched = {"column": column, "share": share}
 
     def distribute(
         self,
@@ -274,7 +307,7 @@ class LayeredLight:
         if self.incident == 0.0:
             self.backend.fill(self.deposit, 0.0)
             return 0.0
-        T_s, shares = temperature, self._lattice
+        T_s, shares = temperature, self._stretched or self._lattice
         if self._over is not None:
             T_s = self._T_s
             self.backend.gather(temperature, self._over, T_s)
@@ -301,5 +334,5 @@ class LayeredLight:
         fields |= {"F": self.fluence, "area": self._area}
         out = (self.columns, None, None)
         backend.pointwise(enter_column, fields, out, reduce=names, **self._entering)
-        absorb = absorb_light if shares is self._lattice else absorb_from_two
+        absorb = absorb_from_two if "column_right" in shares else absorb_light
         backend.pointwise(absorb, shares, self.deposit, reduce=("sum",), columns=self.columns)

@@ -15,7 +15,8 @@ laser                 all of them together, and the energy that sets the scale
 from lasersph.lasers.absorption import Absorption, BeerLambertAbsorption, SurfaceAbsorption
 from lasersph.lasers.beams import GaussianBeam, TopHatBeam, UniformBeam
 from lasersph.lasers.interference import InterferenceBeam
-from lasersph.lasers.laser import Beam, Laser
+from lasersph.lasers.laser import Laser
+from lasersph.lasers.laser_keys import Beam
 from lasersph.lasers.path import LinearPath, Path, TabulatedPath
 from lasersph.lasers.pulses import GaussianPulse, Pulse, SquarePulse, TabulatedPulse
 from lasersph.lasers.reflectivity import ReflectivityTable

@@ -11,7 +11,6 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from functools import cached_property
-from pathlib import Path
 from typing import Annotated, Any, Literal
 
 import numpy as np
@@ -19,13 +18,13 @@ from numpy.typing import ArrayLike, NDArray
 from pydantic import Field, ValidationInfo, model_validator
 
 from lasersph.input import (
-    CaseError,
     Count,
     Frequency,
     Model,
     Time,
     format_quantity,
     refusal,
+    with_rows_of_file,
 )
 
 Array = NDArray[np.float64]
@@ -269,15 +268,7 @@ class TabulatedPulse(PulseTrain):
     @classmethod
     def _fill(cls, data: Any, info: ValidationInfo) -> Any:
         """Rows from the file, which counts from the folder of the case file."""
-        if isinstance(data, dict) and isinstance(data.get("path"), str) and not data.get("table"):
-            from lasersph.input.csv_rows import read_rows  # few cases name a file
-
-            folder = (info.context or {}).get("folder") or Path()
-            file = Path(folder) / Path(data["path"]).expanduser()
-            rows = read_rows(file, COLUMNS)
-            _refuse_rows(rows, file)
-            return data | {"table": [(f"{t!r} s", power) for t, power in rows]}
-        return data
+        return with_rows_of_file(data, info, COLUMNS, key="table", largest={"power": np.inf})
 
     @model_validator(mode="after")
     def _check_table(self) -> TabulatedPulse:
@@ -341,28 +332,6 @@ class TabulatedPulse(PulseTrain):
         part = np.clip(time - nodes[k], 0.0, width)
         slope = np.divide(power[k + 1] - power[k], width, out=np.zeros_like(width), where=width > 0)
         return (area[k] + part * (power[k] + 0.5 * slope * part)) / area[-1]
-
-
-def _refuse_rows(rows: list[tuple[float, ...]], file: Path) -> None:
-    """Refuse the first row of a file whose power is negative or whose time goes back.
-
-    Raises:
-        CaseError: with the line.
-    """
-    before = 0.0
-    for line, (time, power) in enumerate(rows, start=2):
-        if power < 0.0:
-            raise CaseError(
-                f"power {power:g} is negative", "give 0 or more", file=str(file), line=line
-            )
-        if time < before:
-            raise CaseError(
-                f"time {time:g} s lies before {before:g} s of the row above",
-                "times rise from row to row",
-                file=str(file),
-                line=line,
-            )
-        before = time
 
 
 Pulse = Annotated[SquarePulse | GaussianPulse | TabulatedPulse, Field(discriminator="kind")]

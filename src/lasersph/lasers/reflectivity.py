@@ -1,4 +1,8 @@
-"""Reflectivity given in a case, instead of the material's: a number or a table over temperature."""
+"""Reflectivity R or absorptivity A = 1 - R given in a case, instead of the material's.
+
+Both are a number or a table over the temperature of the surface. A is also a table over time, as it
+is measured: a step then takes the mean of A over its time, weighted with the power of the light.
+"""
 
 from __future__ import annotations
 
@@ -6,13 +10,17 @@ from typing import Annotated, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from pydantic import Discriminator, Field, Tag, model_validator
+from pydantic import Discriminator, Field, Tag, ValidationInfo, model_validator
 
-from lasersph.input import Fraction, Model, Temperature
+from lasersph.input import Fraction, Model, Temperature, Time, refusal, with_rows_of_file
+from lasersph.lasers.path import path_quadrature
+from lasersph.lasers.pulses import Pulse
 from lasersph.materials import Material
 
 Array = NDArray[np.float64]
 Share = Annotated[Fraction, Field(ge=0, le=1)]
+COLUMNS = ("t", "absorptivity")
+"""Columns of a file of absorptivities."""
 JUMP_WIDTH = 1e-3
 """Temperature below a jump over which the table for interpolation draws it [K]."""
 
@@ -32,8 +40,8 @@ class ReflectivityTable(Model):
         T = np.array([row[0] for row in self.table])
         if np.any(np.diff(T) < 0.0) or np.any(T[2:] == T[:-2]):
             raise ValueError(
-                "the temperatures of a reflectivity table must rise from row to row; two rows at "
-                "one temperature make a jump, three are too many"
+                "the temperatures of the table must rise from row to row; two rows at one "
+                "temperature make a jump, three are too many"
             )
         return self
 
@@ -49,12 +57,97 @@ class ReflectivityTable(Model):
         return np.interp(np.asarray(temperature, float), *self.nodes())
 
 
+class AbsorptivityTable(Model):
+    """A over the surface temperature, or over the time of the run.
+
+    Linear between rows, held beyond the first and last; two rows at one place make a jump. A over
+    time, beside the power over time, gives an absorbed power that was measured.
+    """
+
+    table: tuple[tuple[Temperature, Share], ...] = Field(
+        default=(), description="rows of surface temperature and absorptivity"
+    )
+    over_time: tuple[tuple[Time, Share], ...] = Field(
+        default=(),
+        description="instead: rows of time and absorptivity; those of the file are kept here",
+    )
+    path: str = Field(
+        default="",
+        description="instead: CSV file with columns t [s] and absorptivity and a headline",
+    )
+
+    @model_validator(mode="before")
+    @classmethod
+    def _fill(cls, data: Any, info: ValidationInfo) -> Any:
+        """Rows from the file, which counts from the folder of the case file."""
+        largest = {"absorptivity": 1.0}
+        return with_rows_of_file(data, info, COLUMNS, key="over_time", largest=largest)
+
+    @model_validator(mode="after")
+    def _check_rows(self) -> AbsorptivityTable:
+        if self.table and self.over_time:
+            raise refusal(("over_time", "contradicts table; leave one of them out"))
+        key, rows = ("table", self.table) if self.table else ("over_time", self.over_time)
+        if len(rows) < 2:
+            raise refusal(
+                (
+                    key,
+                    "needs two rows or more; give a table over temperature, over_time, or path of "
+                    "a CSV file",
+                )
+            )
+        # two rows at one place are a jump
+        places = np.array([row[0] for row in rows])
+        if np.any(np.diff(places) < 0.0) or np.any(places[2:] == places[:-2]):
+            what = "temperatures" if self.table else "times"
+            raise refusal(
+                (
+                    key,
+                    f"has {what} that go back; they must rise from row to row, two rows at one "
+                    "make a jump, three are too many",
+                )
+            )
+        return self
+
+    @property
+    def law(self) -> ReflectivityTable | None:
+        """R = 1 - A over the surface temperature; None over time."""
+        rows = tuple((T, 1.0 - A) for T, A in self.table)
+        return ReflectivityTable(table=rows) if rows else None
+
+    @property
+    def times(self) -> Array:
+        """Times of the rows [s]."""
+        return np.array([row[0] for row in self.over_time])
+
+    @property
+    def values(self) -> Array:
+        """Absorptivities of the rows."""
+        return np.array([row[1] for row in self.over_time])
+
+    def mean(self, pulse: Pulse, interval: tuple[float, float] | None = None) -> float:
+        """A of the light that comes in an interval of time [s]; by default in the first pulse."""
+        start, end = pulse.support if interval is None else interval
+        # nodes of Gauss and Legendre between the rows, weighted with the power there
+        times, shares = path_quadrature(
+            pulse, lambda time: np.zeros(2), self.times, np.inf, start, end
+        )
+        if not shares.sum() > 0.0:
+            return float(np.interp(start, self.times, self.values))
+        return float(shares @ np.interp(times, self.times, self.values) / shares.sum())
+
+
 def _form(value: Any) -> str:
-    return "table" if isinstance(value, dict | ReflectivityTable) else "number"
+    is_table = isinstance(value, dict | ReflectivityTable | AbsorptivityTable)
+    return "rows" if is_table else "number"
 
 
 Reflectivity = Annotated[
-    Annotated[Share, Tag("number")] | Annotated[ReflectivityTable, Tag("table")],
+    Annotated[Share, Tag("number")] | Annotated[ReflectivityTable, Tag("rows")],
+    Discriminator(_form),
+]
+Absorptivity = Annotated[
+    Annotated[Share, Tag("number")] | Annotated[AbsorptivityTable, Tag("rows")],
     Discriminator(_form),
 ]
 

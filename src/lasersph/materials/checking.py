@@ -212,7 +212,7 @@ def _phase_change(material: Material) -> list[Finding]:
     if vapor is not None and vapor.critical_temperature is not None:
         ratio = vapor.critical_temperature / vapor.temperature
         level = "ok" if 1.8 <= ratio <= 4.0 else "warning"
-        text = f"{ratio:.2f} times the boiling temperature (metals: 2 to 3.5)"
+        text = f"{ratio:.2f} times the boiling temperature (metals: 1.8 to 4)"
         found.append(Finding(level, "critical_temperature", text))
     return found
 
@@ -242,7 +242,12 @@ def _liquid(material: Material) -> list[Finding]:
     # gamma falls with temperature, but with sulfur or oxygen
     if material.surface_tension is not None or material.surface_tension_slope is not None:
         slope = float(material.surface_tension_slope_at(material.liquidus + 1.0))
-        level = "ok" if slope < 0.0 else "warning"
+        # which the key sulfur says
+        level = "ok" if slope < 0.0 or material.sulfur > 0.0 else "warning"
         text = f"{slope:.3g} N/(m K); negative for a metal without surface-active elements"
+        if material.sulfur > 0.0:
+            text = (
+                f"{slope:.3g} N/(m K) at the liquidus, with {1e6 * material.sulfur:.3g} ppm sulfur"
+            )
         found.append(Finding(level, "surface_tension_slope", text))
     return found

@@ -54,6 +54,8 @@ CONTRADICTION = 0.2
 solid and liquid; metals lose up to 15 % of theirs from room temperature to the liquidus."""
 JUMP_WIDTH = 1e-3
 """Temperature over which a table draws a jump at the melting point [K]."""
+REVERSAL_NODES = 1025
+"""Nodes between which the slope of surface tension may change its sign. Accuracy: within 1 K."""
 
 
 class Material(Model):
@@ -300,6 +302,24 @@ class Material(Model):
         # central difference over 1 K
         T, half = np.asarray(temperature, dtype=np.float64), 0.5
         return self.surface_tension_at(T + half) - self.surface_tension_at(T - half)
+
+    def slope_reversal(self, upper: float) -> float | None:
+        """Temperature between liquidus and `upper` [K] at which d gamma/dT falls through 0.
+
+        Below it melt flows to where it is hot, above it to where it is cold. None where the slope
+        has one sign, or the metal no surface tension.
+        """
+        given = self.surface_tension_slope is not None or self.surface_tension is not None
+        if self.liquidus is None or not given:
+            return None
+        # the first change of sign of a fine table, linear between its nodes
+        T = np.linspace(self.liquidus, upper, REVERSAL_NODES)
+        slope = self.surface_tension_slope_at(T)
+        changes = np.flatnonzero((slope[:-1] > 0.0) & (slope[1:] <= 0.0))
+        if not changes.size:
+            return None
+        k = changes[0]
+        return float(T[k] + (T[k + 1] - T[k]) * slope[k] / (slope[k] - slope[k + 1]))
 
     def kinematic_viscosity_at(self, temperature: ArrayLike) -> Array:
         """Kinematic viscosity [m^2/s] at temperature [K]: as given, else the liquid's eta / rho."""

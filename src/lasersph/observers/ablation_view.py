@@ -1,11 +1,13 @@
 """Ablation of a run after a step, for observers: host arrays, SI, never changed by it.
 
-Amounts of a 1-D run are per unit area, of a 2-D run per unit length.
+Amounts of a 1-D run are per unit area, of a 2-D run per unit length; those of a half or a quarter
+are of the whole (`View.mirror_images`), numbers of particles are of those that are computed.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Self
 
 import numpy as np
 
@@ -61,3 +63,9 @@ class AblationView:
     particle_mass: float
     density_reference: float
     gas_constant: float | None = None
+
+    def of_whole(self, images: int) -> Self:
+        """The same with the amounts of a computed part and its mirror images."""
+        names = ("ejecta_mass", "ejected_mass", "ejected_energy", "ejected_kinetic")
+        amounts = {name: images * getattr(self, name) for name in (*names, "particle_mass")}
+        return replace(self, **amounts)

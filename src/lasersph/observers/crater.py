@@ -42,8 +42,8 @@ class Crater(Observer):
 
     title = "crater"
     note = (
-        "Volumes are those of the computed part, widths those of the whole crater; in 2-D they are"
-        " per unit length, in 1-D per unit area."
+        "Of half or a quarter of a spot volumes, areas and widths are those of the whole crater. In"
+        " 2-D volumes are per unit length, in 1-D per unit area."
     )
     columns = (
         *(

@@ -7,8 +7,9 @@ tenths of the largest depth D:
 
     tan(taper) = (r(D/10) - r(9 D/10)) / (4/5 D),    0 for vertical walls
 
-Where the beam's axis lies at an edge of the computed part (half or quarter of a spot), areas and
-widths are those of the whole crater: `mirror_images` says how many times the part was taken.
+Where the beam's axis lies at an edge of the computed part (half or quarter of a spot), volume,
+areas and widths are those of the whole crater: `mirror_images` says how many times the part was
+taken.
 """
 
 from __future__ import annotations
@@ -34,7 +35,7 @@ class CraterShape:
         depth_mean, depth_max: mean over the crater's area and largest [m].
         width: along x through the axis, at the original surface [m]; 0 in 1-D.
         diameter: of the circle of the same area [m]; in 2-D the width, in 1-D 0.
-        volume: below the original surface [m^3] (2-D: m^2, 1-D: m), of the computed part.
+        volume: below the original surface [m^3] (2-D: m^2, 1-D: m).
         taper: of the walls from the vertical [rad]; 0 in 1-D.
         mirror_images: how many times the computed part makes up the crater.
     """
@@ -74,7 +75,7 @@ def crater_shape(
         "depth": at_axis,
         "depth_mean": float(np.mean(depth[is_open])),
         "depth_max": largest,
-        "volume": float(np.sum(depth[is_open])) * width**lateral,
+        "volume": float(np.sum(depth[is_open])) * width**lateral * int(np.prod(images)),
         "mirror_images": int(np.prod(images)),
     }
     if lateral == 0:

@@ -71,8 +71,9 @@ class EnergyBudget(Observer):
 
     title = "energy"
     note = (
-        "In 1-D per unit area, in 2-D per unit length, of the part that is computed. The imbalance "
-        "is relative to the largest so far of the energy absorbed, lost and held, sum m |h|."
+        "In 1-D per unit area, in 2-D per unit length; of the whole where a half or a quarter is "
+        "computed. The imbalance is relative to the largest so far of the energy absorbed, lost "
+        "and held, sum m |h|."
     )
     columns = (
         *(

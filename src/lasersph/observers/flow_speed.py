@@ -2,7 +2,7 @@
 
     speed_max = max |v_i|,    kinetic energy = 1/2 rho sum_i V_i |v_i|^2
 
-over flowing particles, per unit length of a plane run; of half a period where half is computed,
+over flowing particles, per unit length of a plane run, of the whole where half of it is computed,
 like the other energies of a run. The largest speed is that of a single particle, its largest value
 in time that of one step; no single particle moves the root mean square speed. The divergence that
 the projection leaves is given in 1/s and as a share of |v|max over the spacing, the largest that

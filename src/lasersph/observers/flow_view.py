@@ -8,9 +8,12 @@ the speed already is smaller by depth * tau / eta, the Marangoni stress tau over
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from typing import Self
 
 import numpy as np
+
+from lasersph.particles.faces import LATERAL
 
 
 @dataclass(frozen=True)
@@ -44,7 +47,8 @@ class FlowView:
         wall_heat, wall_impulse, wall_pressing: of each side of a box, since the start: heat that
             has entered [J/m], momentum that it has given to the liquid along itself, and that with
             which the liquid has pressed on it [N s/m], as the steps exchanged them; nothing presses
-            where the surface moves.
+            where the surface moves. Heat through level sides is that of the whole where half a box
+            is computed, all else that of the half.
         full_step: step before it was cut to end at a given time [s].
     """
 
@@ -71,3 +75,11 @@ class FlowView:
     wall_impulse: Mapping[str, float] = field(default_factory=dict)
     wall_pressing: Mapping[str, float] = field(default_factory=dict)
     full_step: float = 0.0
+
+    def of_whole(self, images: int) -> Self:
+        """The same with the heat through level sides of a computed half and its mirror image."""
+        heat = {
+            side: heat if side in LATERAL[0] else images * heat
+            for side, heat in self.wall_heat.items()
+        }
+        return replace(self, wall_heat=heat)

@@ -102,8 +102,8 @@ class MeltPool(Observer):
     note = (
         "Depth: below the original surface, interpolated between cells. Width: full width of one"
         " pool at the surface, in whole cells, at f_m = 0.5 interpolated between them. Area: of the"
-        " surface, both halves where one is computed. Volume: of all cells, each with its melt"
-        " fraction."
+        " surface. Volume: of all cells, each with its melt fraction. Of half a period, half or a"
+        " quarter of a spot all of them are those of the whole."
     )
     columns = (*DEPTHS, *WIDTHS, *AREAS, VOLUME)
     results = (
@@ -113,14 +113,23 @@ class MeltPool(Observer):
             for name, text in (("start", "first"), ("end", "last"))
         ),
         Quantity("melt.molten_at_end", "", "still fluid at the end of the run"),
+        *(
+            Quantity(f"melt.radius{level}_max_m", "m", f"largest radius of {words}")
+            for level, (_, words) in LEVELS.items()
+        ),
     )
     kept = ("span", "end_time")
 
-    def __init__(self, dimension: int) -> None:
+    def __init__(self, dimension: int, *, is_section: bool = False) -> None:
+        """
+        Args:
+            dimension: 1, 2 or 3. is_section: whether the run is a section (r, z), whose pool has a
+                radius, half of its width.
+        """
         if dimension < 3:
             self.columns = (*DEPTHS, *(WIDTHS if dimension == 2 else ()), VOLUME)
         super().__init__()
-        self.dimension = dimension
+        self.dimension, self.is_section = dimension, is_section
         self.span = {level: Span() for level in LEVELS}
         self.end_time = 0.0
 
@@ -151,6 +160,9 @@ class MeltPool(Observer):
         found: dict[str, object] = {one: None for one in absent if self.dimension == 1}
         for level, span in self.span.items():
             found |= {f"melt.start{level}_s": span.first, f"melt.end{level}_s": span.last}
+            if self.is_section:
+                widest = self.peak[f"melt_width{level}_m"].value
+                found[f"melt.radius{level}_max_m"] = 0.5 * widest
         return {**found, "melt.molten_at_end": self.span[""].last == self.end_time}
 
     def summary(self) -> dict[str, object]:
@@ -273,14 +285,14 @@ def pool_width(view: View, least: float) -> float:
 
 
 def pool_area(view: View, fraction: np.ndarray, least: float) -> float:
-    """Area of the surface cells that are fluid [m^2], twice that of half a period.
+    """Area of the surface cells that are fluid [m^2], of the whole where a part is computed.
 
     Args:
         view: the state in 3-D. fraction: (n,) melt fractions. least: as of `pool_width`.
     """
     cells = view.surface[is_fluid(fraction[view.surface], least)]
     area = view.width[0, cells] * view.width[1, cells]
-    return view.symmetry_factor * float(np.sum(area))
+    return view.mirror_images * float(np.sum(area))
 
 
 def cell_edges(view: View, row: np.ndarray) -> np.ndarray:

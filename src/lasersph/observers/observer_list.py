@@ -10,6 +10,7 @@ from lasersph.observers.box_flow import BoxFlow
 from lasersph.observers.crater import Crater
 from lasersph.observers.ejecta import Ejecta
 from lasersph.observers.energy_budget import EnergyBudget
+from lasersph.observers.flow_cells import FlowCells
 from lasersph.observers.flow_extrema import FlowExtrema
 from lasersph.observers.flow_speed import FlowSpeed
 from lasersph.observers.matter_motion import MatterMotion
@@ -41,6 +42,7 @@ OBSERVERS: tuple[type[Observer], ...] = (
     FlowSpeed,
     SurfaceSpeed,
     FlowExtrema,
+    FlowCells,
     SurfacePressure,
     Topography,
     BoxFlow,
@@ -144,7 +146,7 @@ def heat_observers(
         [
             Steps(tuple(iterations)),
             SurfaceTemperature(),
-            MeltPool(dimension),
+            MeltPool(dimension, is_section=(amount_dimension or dimension) > dimension),
             Vaporization(),
             EnergyBudget(amount_dimension or dimension),
             Probes(tuple(probes)),
@@ -188,7 +190,8 @@ def flow_observers(
     if box:
         here = (one for one in heat if not isinstance(one, MeltPool | Vaporization))
         return Observers([*here, *flow, BoxFlow(), WallExchange()])
-    return Observers([*heat, *flow, FlowExtrema()])
+    cells = (FlowCells(),) if covered > dimension else ()
+    return Observers([*heat, *flow, FlowExtrema(), *cells])
 
 
 def ablation_observers(

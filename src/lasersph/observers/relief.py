@@ -16,13 +16,17 @@ class Relief:
     """Heights of a surface, by columns of equal width.
 
     Attributes:
-        x: (columns,) centers, rising [m]. height: (columns,) z [m]. beyond: what lies beyond both
-            ends: its mirror image, itself again, or a wall at which it is pinned.
+        x: (columns,) centers, rising [m]; distances from the axis in a section (r, z). height:
+            (columns,) z [m]. beyond: what lies beyond both ends: its mirror image, itself again, or
+            a wall at which it is pinned. is_section: whether columns are rings. mirror_images: how
+            many times the columns make up the whole, see `View`.
     """
 
     x: np.ndarray
     height: np.ndarray
     beyond: Literal["mirror", "periodic", "pinned"] = "mirror"
+    is_section: bool = False
+    mirror_images: int = 1
 
     def __post_init__(self) -> None:
         """Raises ValueError where the columns are fewer than three, or not equally wide."""
@@ -41,6 +45,38 @@ class Relief:
     def width(self) -> float:
         """Of all columns [m]."""
         return self.spacing * self.x.size
+
+    @property
+    def area(self) -> np.ndarray:
+        """Surface that each column covers, (columns,), with its mirror images: of rings 2 pi r dr
+        [m^2], in a plane its width [m]. Sums over columns are weighted with it."""
+        if self.is_section:
+            return 2.0 * np.pi * self.x * self.spacing
+        return np.full(self.x.size, self.mirror_images * self.spacing)
+
+    @property
+    def center(self) -> float:
+        """Height at x = 0 [m], on the axis of a section, by four columns around it.
+
+        A relief that begins at x = 0 goes on as its mirror image: (9 z_1 - z_2) / 8.
+        """
+        z = self.height
+        if self.x[0] > 0.0:
+            return float(9.0 * z[0] - z[1]) / 8.0
+        # Lagrange's polynomial through the four columns around 0, taken there
+        first = int(np.clip(np.searchsorted(self.x, 0.0) - 2, 0, max(self.x.size - 4, 0)))
+        x, z = self.x[first : first + 4], z[first : first + 4]
+        found = 0.0
+        for k in range(x.size):
+            others = np.delete(x, k)
+            found += float(z[k] * np.prod(others / (others - x[k])))
+        return found
+
+    def volumes(self) -> tuple[float, float]:
+        """Volume that is missing below z = 0 and that which stands above it [m^3]; in a plane per
+        length [m^2]."""
+        z = self.height
+        return float(np.maximum(-z, 0.0) @ self.area), float(np.maximum(z, 0.0) @ self.area)
 
     def highest(self) -> tuple[float, float]:
         """Place and height of the highest point [m]."""

@@ -21,9 +21,10 @@ def snapshot_fields(view: View) -> dict[str, np.ndarray]:
     """Fields of a snapshot beside the positions: see `UNITS`.
 
     Mass and enthalpy have the precision of the run, so that a reader finds the stored heat of the
-    summary again; the others are in single precision. With flow the fields of the surface
-    above the particles (`surface_temperature`, ...) are 0 for particles that do not lie at it. With
-    ablation `stage` tells ejecta from the body, see `AblationView`.
+    summary again (mass is that of the particle, without mirror images); the others are in single
+    precision. With flow the fields of the surface above the particles (`surface_temperature`, ...)
+    are 0 for particles that do not lie at it. With ablation `stage` tells ejecta from the body, see
+    `AblationView`.
     """
     # bytes mark the particles at the surface
     count = view.temperature.size
@@ -61,5 +62,5 @@ def snapshot_fields(view: View) -> dict[str, np.ndarray]:
         fields["normal"] = seen.normal
         marks["stage"] = seen.stage.astype(np.uint8)
     # mass and enthalpy in double precision: budgets are summed from them
-    exact = {"mass": np.array(view.mass), "enthalpy": np.array(view.enthalpy)}
+    exact = {"mass": np.array(view.mass / view.mirror_images), "enthalpy": np.array(view.enthalpy)}
     return {**{name: a.astype(np.float32) for name, a in fields.items()}, **exact, **marks}

@@ -94,12 +94,13 @@ class Vaporization(Observer):
             self._look_near_critical(view, surface)
         # evaporated thickness of each column, where the run evaporates
         evaporated = np.zeros(1) if view.evaporated is None else view.evaporated
+        share = view.column_share
         values = (
             largest,
             largest_depth(faces, fraction > 0.0) if largest > 0.0 else 0.0,
             largest_depth(faces, fraction >= FULL) if largest >= FULL else 0.0,
             float(np.max(evaporated)),
-            float(np.mean(evaporated)),
+            float(np.mean(evaporated) if share is None else share @ evaporated),
         )
         return self.record(view.time, values)
 

@@ -1,8 +1,13 @@
-"""State of a run after a step, for observers: host arrays, SI, never changed by the observer."""
+"""State of a run after a step, for observers: host arrays, SI, never changed by the observer.
+
+Where half a period, or half or a quarter of a spot is computed, amounts are those of the whole:
+`of_whole` counts each particle with its mirror images, once for all observers. Sums over `volume`
+and `mass`, and the energies, then need no further factor.
+"""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import NoReturn
 
 import numpy as np
@@ -20,12 +25,15 @@ class View:
         time, step, time_step: seconds; steps done; seconds.
         position: (dim, n) [m]; the last axis is z, the original surface lies at z = 0.
         width: (dim, n) cell widths [m].
-        volume: (n,) [m^dim]. mass: (n,) [kg per (3 - dim) lengths].
+        volume: (n,) [m^dim], mass: (n,) [kg per (3 - dim) lengths], of a particle together with its
+            mirror images.
         temperature, enthalpy: (n,) [K], [J/kg].
         melt_fraction, vapor_fraction: (n,) [1].
         surface: indices of the particles of the surface layer; where particles move, of those
             that lie at the surface now.
         symmetry_factor: 2 where half a period is computed, else 1; multiplies widths.
+        mirror_images: how many times the computed part makes up the whole: 2 of a half, 4 of a
+            quarter; 1 of a section (r, z), whose rings are whole.
         halves_spot: whether the axis of a resting spot lies on the lower or the upper end of x, so
             that its other half is not computed.
         energy: what the solver has booked since the start, by `energy_budget.BOOKED` [J], per unit
@@ -38,7 +46,8 @@ class View:
         critical: temperature that a surface which evaporates must not reach [K]; None where a
             plateau holds it below.
         evaporated: (columns,) thickness that has evaporated from each column of cells [m], where
-            the run follows it.
+            the run follows it. column_share: (columns,) shares of the surface that these have,
+            their sum is 1; in a section (r, z) those of rings.
         relief: heights of the surface; None where it stays flat.
         flow: velocity, pressure and what belongs to them; None in a run without flow.
         ablation: crater and ejecta; None in a run without ablation.
@@ -59,6 +68,7 @@ class View:
     surface: np.ndarray
     # of the whole run
     symmetry_factor: int = 1
+    mirror_images: int = 1
     halves_spot: tuple[bool, bool] = (False, False)
     energy: dict[str, float] = field(default_factory=dict)
     latent_heats: tuple[float, float] = (0.0, 0.0)
@@ -71,6 +81,7 @@ class View:
     critical: float | None = None
     # parts that only some runs have
     evaporated: np.ndarray | None = None
+    column_share: np.ndarray | None = None
     relief: Relief | None = None
     flow: FlowView | None = None
     ablation: AblationView | None = None
@@ -90,6 +101,29 @@ class View:
     def dimension(self) -> int:
         """Number of space dimensions."""
         return self.position.shape[0]
+
+
+def of_whole(view: View, images: int) -> View:
+    """A view whose amounts are those of the whole body.
+
+    Args:
+        view: with the amounts of the part that is computed. images: see `View.mirror_images`.
+    """
+    if images == 1:
+        return view
+    # what has left the metal, and what has entered through the level sides of a box
+    ablation = None if view.ablation is None else view.ablation.of_whole(images)
+    flow = None if view.flow is None else view.flow.of_whole(images)
+    return replace(
+        view,
+        mirror_images=images,
+        volume=images * view.volume,
+        mass=images * view.mass,
+        energy={name: images * value for name, value in view.energy.items()},
+        ablation=ablation,
+        flow=flow,
+        relief=None if view.relief is None else replace(view.relief, mirror_images=images),
+    )
 
 
 def names_of(kind: type) -> set[str]:

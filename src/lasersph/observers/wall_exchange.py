@@ -1,6 +1,7 @@
 """Heat and force that the walls of a closed box exchange with its liquid, as the steps book them.
 
-With the heat Q that has entered through a side since the start, its area A per length, and the
+With the heat Q that has entered through a side since the start, its area A per length (of the
+whole box where half is computed), and the
 distance L and the temperatures of the two opposite sides that drive the flow,
 
     Nu = |dQ/dt| / A  L / (k |T_side - T_opposite|)
@@ -52,7 +53,8 @@ class WallExchange(Observer):
     title = "walls of the box, mean over the last quarter of the time"
     note = (
         "Heat and force as the implicit steps exchange them with each side; the domain-averaged"
-        " Nusselt number is the volume mean of conduction and convection, 1 + <u T>."
+        " Nusselt number is the volume mean of conduction and convection, 1 + <u T>. Of half a box,"
+        " heat through bottom and surface is that of the whole, forces are those of the half."
     )
     columns = (
         *(Quantity(f"box_heat_{side}_J", "J", f"heat that has entered, {side}") for side in PLANE),
@@ -85,11 +87,12 @@ class WallExchange(Observer):
         Quantity("box.heat.difference_K", "K", "difference of their temperatures"),
         Quantity("box.walls.from_s", "s", "begin of the time over which these are means"),
     )
-    kept = ("size", "conductivity", "temperature", "between", "sums", "marks")
+    kept = ("size", "images", "conductivity", "temperature", "between", "sums", "marks")
 
     def __init__(self) -> None:
         super().__init__()
         self.size = [0.0, 0.0]
+        self.images = 1
         self.conductivity = 0.0
         self.temperature: dict[str, float] = {}
         self.between: list[str] = []
@@ -152,7 +155,7 @@ class WallExchange(Observer):
     def _look_at_sides(self, view: View) -> None:
         """Size of the box, temperatures of its sides, and which two of them drive the flow."""
         flow = flow_of(view)
-        self.conductivity = flow.conductivity
+        self.conductivity, self.images = flow.conductivity, view.mirror_images
         # bounds once: walls stay where they are
         if not any(self.size):
             box = Box.around(view.position, view.width)
@@ -216,9 +219,9 @@ class WallExchange(Observer):
         return 1.0 + (convection if lower > upper else -convection) / conduction
 
     def _area(self, side: str) -> float:
-        """Length of a side [m]."""
+        """Length of a side [m], of the whole box where half is computed."""
         box = Box(*self.size)
-        return box.height if side in LATERAL[0] else box.width
+        return box.height if side in LATERAL[0] else self.images * box.width
 
 
 def rates(start: Mapping[str, float], end: Mapping[str, float]) -> dict[str, float]:

@@ -18,6 +18,13 @@ from lasersph.input.key_units import unit_in, unit_of
 from lasersph.output.errors import OutputError, clear_errors, install_hint, read_json
 from lasersph.output.generation import Result, read_unchanged
 from lasersph.output.history import read_events, read_history
+from lasersph.output.older_results import (
+    images_of_older,
+    note_on_older,
+    read_summary,
+    read_uncertainty,
+    times,
+)
 from lasersph.output.particle_file import AXES, open_for_reading
 from lasersph.output.symmetry import is_axisymmetric, is_mirrored
 
@@ -52,16 +59,16 @@ class Run:
 
     @cached_property
     def summary(self) -> dict[str, Any]:
-        """Content of summary.json, SI. Raises OutputError where the run is not complete."""
+        """Content of summary.json, SI, see `older_results` of what an earlier version wrote. Raises
+        OutputError where the run is not complete."""
         if not self.is_complete:
             raise OutputError(f"{self.path} has no summary: the run is not complete")
-        return read_json(self.path / "summary.json")
+        return read_summary(self.path)
 
     @cached_property
     def uncertainty(self) -> dict[str, Any] | None:
         """Content of uncertainty.json, SI; None where the run was done without companions."""
-        path = self.path / "uncertainty.json"
-        return read_json(path) if path.exists() else None
+        return read_uncertainty(self.path) if (self.path / "uncertainty.json").exists() else None
 
     @cached_property
     def resolved(self) -> dict[str, Any]:
@@ -79,6 +86,11 @@ class Run:
         half; else 1."""
         return 2 if is_mirrored(self.case) else 1
 
+    @property
+    def across(self) -> str:
+        """Letter of the first axis for labels: r in a section (r, z), else x."""
+        return "r" if is_axisymmetric(self.case) else "x"
+
     @cached_property
     def case_text(self) -> str:
         """The case file as given."""
@@ -89,7 +101,15 @@ class Run:
     def history(self) -> dict[str, np.ndarray]:
         """Columns of history.csv, arrays (steps,), SI, by name; `units` has the unit of each."""
         path = self.path / "history.csv"
-        return read_unchanged(self.path, lambda: read_history(path) if path.exists() else {})
+        found = read_unchanged(self.path, lambda: read_history(path) if path.exists() else {})
+        images = images_of_older(self.path)
+        return found if images == 1 else times(found, images)
+
+    @property
+    def note_on_older(self) -> str | None:
+        """One line on amounts that an earlier version gave of the computed part, and that are
+        multiplied as they are read; None where none is."""
+        return note_on_older(self.path)
 
     @property
     def dimensions(self) -> int:

@@ -20,7 +20,6 @@ back to that, so that it continues as if nothing had happened.
 
 from __future__ import annotations
 
-import json
 import os
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
@@ -36,6 +35,7 @@ from lasersph.output.checkpoint import Checkpoint
 from lasersph.output.errors import FolderRefused, OutputError, clear_errors
 from lasersph.output.folder_lock import FolderLock, is_lock
 from lasersph.output.history import WARNING, Events, History
+from lasersph.output.older_results import RESULTS_SCHEMA, read_summary
 from lasersph.output.overwriting import refuse_other_folders, remove_run
 from lasersph.output.particle_file import ParticleFile
 from lasersph.output.run_owner import (
@@ -49,7 +49,6 @@ from lasersph.output.run_owner import (
 )
 from lasersph.output.transaction import rename_damaged
 
-SUMMARY_SCHEMA = 1
 LEFT_BY_KILL = RESOLVED + TEMPORARY_SUFFIX
 """All that a run killed before it wrote its case leaves."""
 REQUIRED_KEYS = (
@@ -192,8 +191,7 @@ class RunFolder:
     @property
     def summary(self) -> dict[str, Any]:
         """The results of a complete run. Raises OutputError."""
-        with clear_errors("read", self.path / SUMMARY):
-            return json.loads((self.path / SUMMARY).read_text())
+        return read_summary(self.path)
 
     def confirm_lock(self) -> None:
         """Make sure that no other process took the folder over. Raises OutputError."""
@@ -306,7 +304,7 @@ class RunFolder:
             raise ValueError(f"the summary lacks {', '.join(missing)}")
         self.history.flush(sync=True)
         self.events.flush()
-        replace_json(self.path / SUMMARY, {"schema_version": SUMMARY_SCHEMA, **summary})
+        replace_json(self.path / SUMMARY, {"schema_version": RESULTS_SCHEMA, **summary})
 
     def close(self) -> None:
         """Flush the history and let other processes use the folder."""

@@ -17,8 +17,8 @@ from typing import Any
 
 from lasersph.output.atomic import replace_json, replace_text, sync_folder, to_json_values
 from lasersph.output.errors import FolderRefused, clear_errors
+from lasersph.output.older_results import RESULTS_SCHEMA
 
-RESOLVED_SCHEMA = 1
 RESOLVED = "resolved.json"
 CASE = "case.toml"
 SUMMARY = "summary.json"
@@ -68,7 +68,7 @@ def write_origin(folder: Path, origin: Origin, started_with: Mapping[str, Any]) 
         OutputError: they cannot be written.
     """
     resolved = {
-        "schema_version": RESOLVED_SCHEMA,
+        "schema_version": RESULTS_SCHEMA,
         "case_hash": origin.name,
         "versions": dict(origin.versions),
         "case": origin.case,

@@ -120,7 +120,7 @@ def reliefs(runs: Sequence[RunOrFolder], labels: Labels = None) -> Figure:
     fine = style.fitting_unit("m", float(np.nanmax(np.abs(change), initial=0.0)))
     below.plot(x * along.factor, change * fine.factor, color=style.GRAY)
     style.label(above, "", f"height [{up.name}]")
-    style.label(below, f"x [{along.name}]", f"difference [{fine.name}]")
+    style.label(below, f"{runs[0].across} [{along.name}]", f"difference [{fine.name}]")
     style.legend_above(figure, above, columns=2)
     return figure
 

@@ -23,13 +23,14 @@ VAPOR = 1e-6
 @dataclass(frozen=True)
 class PlaneFlow:
     """Particles of a plane snapshot: cells (their numbers count the particles of the snapshot) and
-    velocity (2, m) [m/s], mirrored like the cells; time [s].
+    velocity (2, m) [m/s], mirrored like the cells; time [s]; letter of the level axis.
     """
 
     time: float
     step: Snapshot
     cells: Cells
     velocity: np.ndarray
+    across: str = "x"
 
     @property
     def flows(self) -> np.ndarray:
@@ -54,7 +55,7 @@ class PlaneFlow:
             self.cells.number[chosen],
             self.cells.walls,
         )
-        return PlaneFlow(self.time, self.step, cells, self.velocity[:, chosen])
+        return replace(self, cells=cells, velocity=self.velocity[:, chosen])
 
     def on_grid(
         self, frame: Box, columns: int, rows: int
@@ -87,6 +88,7 @@ class Raster:
     step: Snapshot
     frame: Box
     number: np.ndarray
+    across: str = "x"
 
     @property
     def edges(self) -> tuple[float, float, float, float]:
@@ -122,7 +124,8 @@ class Raster:
 def raster(flow: PlaneFlow, frame: Box, pixels: tuple[int, int] = PIXELS) -> Raster:
     """A frame of a state in pixels, rows and columns."""
     edges = (frame.left, frame.right, frame.bottom, frame.top)
-    return Raster(flow.step, frame, flow.inside(frame).cells.picture(edges, pixels))
+    number = flow.inside(frame).cells.picture(edges, pixels)
+    return Raster(flow.step, frame, number, flow.across)
 
 
 def plane_flow(run: Run, time: float) -> PlaneFlow:
@@ -140,7 +143,7 @@ def plane_flow(run: Run, time: float) -> PlaneFlow:
     if run.symmetry_factor == 2:
         cells = cells.mirrored()
         velocity = np.concatenate([velocity * np.array([[-1.0], [1.0]]), velocity], axis=1)
-    return PlaneFlow(float(step["time"]), step, cells, velocity)
+    return PlaneFlow(float(step["time"]), step, cells, velocity, run.across)
 
 
 def pool_frame(run: Run, flow: PlaneFlow) -> Box:

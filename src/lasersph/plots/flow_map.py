@@ -132,7 +132,9 @@ def draw_temperature(
 ) -> None:
     """Temperature of the particles."""
     colors = style.TEMPERATURE_COLORS
-    image = style.paint(axes, picture.temperature(), picture.edges, unit, cmap=colors)
+    image = style.paint(
+        axes, picture.temperature(), picture.edges, unit, across=picture.across, cmap=colors
+    )
     if limits is not None:
         image.set_clim(*limits)
     style.color_bar(axes, image, "temperature [K]")
@@ -143,7 +145,9 @@ def draw_phase(axes: Axes, picture: Raster, unit: style.Unit) -> None:
     from matplotlib.colors import ListedColormap
 
     options = {"cmap": ListedColormap(list(PHASE_COLORS)), "vmin": -0.5, "vmax": 3.5}
-    image = style.paint(axes, picture.phase(), picture.edges, unit, **options)
+    image = style.paint(
+        axes, picture.phase(), picture.edges, unit, across=picture.across, **options
+    )
     style.color_bar(axes, image, "phase").set_ticks(range(4), labels=PHASES)
 
 
@@ -156,10 +160,10 @@ def draw_speed(axes: Axes, picture: Raster, unit: style.Unit, largest: float) ->
     speed = style.speed_unit(largest)
     # Metal in gray below the colors of what flows.
     gray = {"cmap": "gray", "vmin": 0.0, "vmax": 1.0 / METAL_GRAY}
-    style.paint(axes, picture.metal(), picture.edges, unit, **gray)
+    style.paint(axes, picture.metal(), picture.edges, unit, across=picture.across, **gray)
     values, top = picture.speed() * speed.factor, max(largest * speed.factor, 1e-12)
     options = {"cmap": style.SPEED_COLORS, "vmin": 0.0, "vmax": top}
-    image = style.paint(axes, values, picture.edges, unit, **options)
+    image = style.paint(axes, values, picture.edges, unit, across=picture.across, **options)
     style.color_bar(axes, image, f"speed [{speed.name}]")
 
 

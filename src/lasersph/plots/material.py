@@ -38,9 +38,12 @@ PANELS = (
     Panel("surface_tension_slope", r"$d\gamma/dT$ [mN/(m K)]", 1e3, True),
     Panel("reflectivity", r"reflectivity $R$ [1]", 1.0),
 )
+SLOPE = "surface_tension_slope"
 PHASES = {"solid": "#e9ecef", "melting": "#ffe3b3", "liquid": "#fdeedd"}
 LINE = "#1f4e79"
 COLUMNS = 3
+SLOPE_MARGIN = 0.12
+"""Room above and below the slope over its range. Display: for the word at its zero."""
 
 
 def material_figure(material: Material) -> Figure:
@@ -49,7 +52,10 @@ def material_figure(material: Material) -> Figure:
 
     # Panels for what depends on temperature, one for the enthalpy, one for the numbers.
     properties = material.properties()
-    panels = [panel for panel in PANELS if panel.name in properties]
+    has_slope = material.surface_tension is not None
+    panels = [
+        panel for panel in PANELS if panel.name in properties or (panel.name == SLOPE and has_slope)
+    ]
     rows = -(-(len(panels) + 2) // COLUMNS)
     notes = _source_lines(material, panels)
     height = 2.9 * rows + 0.15 * len(notes) + 1.0
@@ -61,7 +67,10 @@ def material_figure(material: Material) -> Figure:
     # Each panel has the number of its source below the figure.
     for number, panel in enumerate(panels):
         axes = figure.add_subplot(grid[divmod(number, COLUMNS)])
-        _draw_property(axes, material, panel, span)
+        if panel.name == SLOPE:
+            _draw_slope(axes, material, panel, span)
+        else:
+            _draw_property(axes, material, panel, span)
         options = {"ha": "right", "fontsize": 8, "color": "0.4"}
         axes.text(-0.03, 1.02, f"[{number + 1}]", transform=axes.transAxes, **options)
     _draw_enthalpy(figure.add_subplot(grid[divmod(len(panels), COLUMNS)]), material, span)
@@ -107,6 +116,28 @@ def _draw_property(axes: Axes, material: Material, panel: Panel, span: tuple[flo
         axes.set_ylim(*sorted((0.0, 1.6 * value)))
     axes.set_ylabel(panel.label, fontsize=9)
     axes.ticklabel_format(axis="y", useOffset=False)
+
+
+def _draw_slope(axes: Axes, material: Material, panel: Panel, span: tuple[float, float]) -> None:
+    """Slope of surface tension of the liquid, as given or that of gamma(T), and where it is 0."""
+    _shade(axes, material, span)
+    lower = span[0] if material.liquidus is None else material.liquidus
+    T = np.linspace(lower, span[1], 400)
+    slope = material.surface_tension_slope_at(T) * panel.factor
+    axes.plot(T, slope, color=LINE, lw=1.6)
+    low, high = min(0.0, float(slope.min())), max(0.0, float(slope.max()))
+    margin = SLOPE_MARGIN * (high - low)
+    axes.set_ylim(low - margin, high + margin)
+    axes.axhline(0.0, color="0.55", lw=0.8)
+    axes.set_ylabel(panel.label, fontsize=9)
+
+    # Below the change of sign melt flows to where it is hot, above it to where it is cold.
+    if (reversal := material.slope_reversal(span[1])) is not None:
+        axes.plot([reversal], [0.0], "o", color=LINE, ms=4.5)
+        text = f"changes sign at {reversal:.0f} K"
+        options = {"ha": "left", "va": "bottom", "fontsize": 7.5, "color": "0.25"}
+        place = (reversal, 0.0)
+        axes.annotate(text, place, xytext=(6, 4), textcoords="offset points", **options)
 
 
 def _draw_law(axes: Axes, law: Law[Any], span: tuple[float, float], factor: float) -> None:
@@ -218,11 +249,15 @@ def _source_lines(material: Material, panels: list[Panel]) -> list[str]:
     lines = []
     # Sources by the number of their panel, wrapped to the width of the page.
     for number, panel in enumerate(panels):
-        laws = material.properties()[panel.name].laws()
-        parts = [
-            law.source if phase == "all" else f"{phase}: {law.source}"
-            for phase, law in laws.items()
-        ]
+        found = material.properties().get(panel.name)
+        if found is None:
+            sulfur = f", with {1e6 * material.sulfur:.3g} ppm sulfur" if material.sulfur else ""
+            parts = [f"slope of the surface tension{sulfur}"]
+        else:
+            parts = [
+                law.source if phase == "all" else f"{phase}: {law.source}"
+                for phase, law in found.laws().items()
+            ]
         text = f"[{number + 1}] " + "; ".join(parts)
         lines += textwrap.wrap(text, 165, subsequent_indent="      ")
     lines.append("")

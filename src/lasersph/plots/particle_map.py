@@ -157,7 +157,7 @@ def particle_map(run: RunOrFolder, time: float | None = None) -> Figure | None:
     # One panel a field, with the cells as pixels.
     for axes, (field, text, colors) in zip(all_axes, fields, strict=True):
         values = np.where(picture < 0, np.nan, step[field][picture])
-        image = style.paint(axes, values, cells.frame, unit, cmap=colors)
+        image = style.paint(axes, values, cells.frame, unit, across=run.across, cmap=colors)
         if field == "melt_fraction":
             image.set_clim(0.0, 1.0)
         style.color_bar(axes, image, text)
@@ -244,7 +244,11 @@ def deepest_melt_time(run: Run) -> float:
 
 
 def arrangement(
-    step: Snapshot, *, dummies: np.ndarray | None = None, detail: float | None = None
+    step: Snapshot,
+    *,
+    dummies: np.ndarray | None = None,
+    detail: float | None = None,
+    across: str = "x",
 ) -> Figure | None:
     """Where the particles lie: the whole body and a detail at the surface (2-D; as Fig. 2).
 
@@ -252,6 +256,7 @@ def arrangement(
         step: a snapshot with position (2, n) and width (2, n) [m].
         dummies: positions (2, m) of dummy particles, drawn lighter.
         detail: edge of the detail [m]; if not given, 110 of the smallest cells.
+        across: letter of the level axis.
     """
     position, width = step["position"], step["width"]
     if position.shape[0] != 2:
@@ -280,7 +285,7 @@ def arrangement(
         axes.set_xlim(low, high)
         axes.set_ylim((frame[2] - margin) * unit.factor, (frame[3] + margin) * unit.factor)
         axes.set_aspect("equal")
-        style.label(axes, f"x [{unit.name}]", f"z [{unit.name}]")
+        style.label(axes, f"{across} [{unit.name}]", f"z [{unit.name}]")
     all_axes[0].set_title("(a) the whole body", fontsize=10, loc="left")
     all_axes[1].set_title("(b) at the surface", fontsize=10, loc="left")
     return figure

@@ -48,7 +48,7 @@ def relief_after_pulses(run: RunOrFolder) -> Figure | None:
     # Each pulse leaves its last line behind.
     height = np.array([lines_of(pulse)[2][-1] for pulse in pulses.values()])
     words = ["1 pulse" if count == 1 else f"{count} pulses" for count in pulses]
-    return profiles_figure(x, height, words)
+    return profiles_figure(x, height, words, run.across)
 
 
 def relief_profiles(run: RunOrFolder) -> Figure | None:
@@ -62,10 +62,12 @@ def relief_profiles(run: RunOrFolder) -> Figure | None:
     first, last = (moves[0], moves[-1] + 1) if moves.size else (0, times.size - 1)
     shown = np.unique(np.linspace(first, last, PROFILES).round().astype(int))
     words = [format_quantity(float(time), "s", typographic=True) for time in times[shown]]
-    return profiles_figure(x, height[shown], words)
+    return profiles_figure(x, height[shown], words, run.across)
 
 
-def profiles_figure(x: np.ndarray, height: np.ndarray, words: Sequence[str]) -> Figure:
+def profiles_figure(
+    x: np.ndarray, height: np.ndarray, words: Sequence[str], across: str = "x"
+) -> Figure:
     """Heights (profiles, columns) [m] over places (columns,) [m], each with its words."""
     figure, (axes,) = style.new_figure(height=3.6)
     length = style.fitting_unit("m", np.max(np.abs(x)))
@@ -74,7 +76,7 @@ def profiles_figure(x: np.ndarray, height: np.ndarray, words: Sequence[str]) -> 
     for profile, color, text in zip(height, colors, words, strict=True):
         axes.plot(x * length.factor, profile * up.factor, lw=1.2, color=color, label=text)
     axes.set_xlim(x[0] * length.factor, x[-1] * length.factor)
-    style.label(axes, f"x [{length.name}]", f"height of the surface [{up.name}]")
+    style.label(axes, f"{across} [{length.name}]", f"height of the surface [{up.name}]")
     style.legend_above(figure, axes, columns=7)
     return figure
 
@@ -101,7 +103,7 @@ def relief_map(run: RunOrFolder) -> Figure | None:
         shading="nearest",
         rasterized=True,
     )
-    style.label(axes, f"x [{length.name}]", f"time [{time.name}]")
+    style.label(axes, f"{run.across} [{length.name}]", f"time [{time.name}]")
     style.color_bar(axes, image, f"height of the surface [{up.name}]")
     return figure
 
@@ -135,7 +137,14 @@ def final_relief(run: RunOrFolder) -> Figure | None:
     picture = cells.picture()
     values = np.where(picture < 0, np.nan, molten[picture])
     image = style.paint(
-        axes, values, cells.frame, unit, cmap=style.FRACTION_COLORS, vmin=0.0, vmax=1.0
+        axes,
+        values,
+        cells.frame,
+        unit,
+        across=run.across,
+        cmap=style.FRACTION_COLORS,
+        vmin=0.0,
+        vmax=1.0,
     )
     style.color_bar(axes, image, "largest melt fraction [1]")
     axes.plot(x * unit.factor, surface * unit.factor, color=style.COLORS[1], lw=1.6)

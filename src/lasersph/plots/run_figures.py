@@ -53,7 +53,9 @@ class Drawing(NamedTuple):
 
 def draw_arrangement(run: Run) -> Figure | None:
     """The particles as they lay at the start."""
-    return arrangement(run.snapshots[0]) if len(run.snapshots) else None
+    if not len(run.snapshots):
+        return None
+    return arrangement(run.snapshots[0], across=run.across)
 
 
 def unless_isothermal(draw: Callable[[Run], Figure | None]) -> Callable[[Run], Figure | None]:

@@ -157,15 +157,22 @@ def level_line(axes: Axes, value: float, name: str) -> None:
 
 
 def paint(
-    axes: Axes, values: np.ndarray, edges: Sequence[float], unit: Unit, **options: Any
+    axes: Axes,
+    values: np.ndarray,
+    edges: Sequence[float],
+    unit: Unit,
+    *,
+    across: str = "x",
+    **options: Any,
 ) -> AxesImage:
     """Draw values (rows, columns) as a picture between its edges left, right, bottom, top [m].
 
-    `options` goes to matplotlib's `imshow`; axes are in `unit`.
+    `across` is the letter of the level axis; `options` goes to matplotlib's `imshow`; axes are in
+    `unit`.
     """
     left, right, bottom, top = (edge * unit.factor for edge in edges)
     axes.grid(False)
-    label(axes, f"x [{unit.name}]", f"z [{unit.name}]")
+    label(axes, f"{across} [{unit.name}]", f"z [{unit.name}]")
     return axes.imshow(
         values,
         extent=(left, right, bottom, top),

@@ -44,7 +44,7 @@ def surface_profiles(run: RunOrFolder, times: Sequence[float] | None = None) -> 
     right = half_width * length.factor
     axes.set_xlim(-right if run.symmetry_factor == 2 else None, right)
     draw_corner_temperatures(axes, material_of(run))
-    style.label(axes, f"x [{length.name}]", "surface temperature [K]")
+    style.label(axes, f"{run.across} [{length.name}]", "surface temperature [K]")
     style.legend_above(figure, axes, columns=7)
     return figure
 
@@ -70,7 +70,7 @@ def surface_flow_profiles(run: RunOrFolder, times: Sequence[float] | None = None
     speed = style.speed_unit(max(np.max(np.abs(step["surface_velocity"])) for step in steps))
     panels = (
         ("surface_temperature", "temperature [K]", 1.0),
-        ("surface_gradient", "dT/dx [K/µm]", 1e-6),
+        ("surface_gradient", f"dT/d{run.across} [K/µm]", 1e-6),
         ("surface_velocity", f"velocity u [{speed.name}]", speed.factor),
     )
     # Panels of temperature, gradient and velocity at the same times.
@@ -79,7 +79,7 @@ def surface_flow_profiles(run: RunOrFolder, times: Sequence[float] | None = None
             x, values = profile(step, run.symmetry_factor, name)
             seen = np.abs(x) <= half_width
             axes.plot(x[seen] * length.factor, values[seen] * factor, lw=1.1, **options)
-        lowest = f"x [{length.name}]" if letter == "c" else ""
+        lowest = f"{run.across} [{length.name}]" if letter == "c" else ""
         style.label(axes, lowest, text, title=f"({letter})")
         axes.set_xlim(-half_width * length.factor, half_width * length.factor)
     draw_corner_temperatures(all_axes[0], material_of(run))

@@ -13,14 +13,18 @@ if TYPE_CHECKING:
 
 
 def comparison_figure(
-    x: np.ndarray, measured: np.ndarray, ours: np.ndarray, content: dict[str, Any]
+    x: np.ndarray,
+    measured: np.ndarray,
+    ours: np.ndarray,
+    content: dict[str, Any],
+    across: str = "x",
 ) -> Figure:
     """Above: measured and computed heights over x. Below: their difference, and what noise and
     interpolation explain of it, twice.
 
     Args:
         x: (n,) aligned places [m]; of a map those near one line. measured, ours: (n,) heights [m].
-        content: of comparison.json.
+        content: of comparison.json. across: letter of the places.
     """
     figure, (first, second) = style.new_figure(2, height=5.2, share_x=True)
     order = np.argsort(x, kind="stable")
@@ -43,7 +47,7 @@ def comparison_figure(
     second.axhspan(-band, band, color=style.COLORS[0], alpha=0.15, linewidth=0.0)
     second.plot(x * along.factor, left * fine.factor, ".", ms=2.5, color=style.GRAY)
     second.set_xlim(x[0] * along.factor, x[-1] * along.factor)
-    style.label(second, f"x [{along.name}]", f"measured less computed [{fine.name}]")
+    style.label(second, f"{across} [{along.name}]", f"measured less computed [{fine.name}]")
     return figure
 
 

@@ -72,7 +72,12 @@ details.subject > summary { font-weight: 600; }
   table { display: block; overflow-x: auto; }
   th, td { overflow-wrap: break-word; padding-right: .6rem; }
   td.moment { white-space: normal; min-width: 4.8em; }
-  td.number + td.number { white-space: normal; min-width: 4.4em; } }
+  td.number + td.number { white-space: normal; min-width: 4.4em; }
+  /* Of four columns the first stands above the others. */
+  table:has(tr > :nth-child(4)) tbody { display: block; }
+  tr:has(> :nth-child(4)) { display: flex; flex-wrap: wrap; border-bottom: 1px solid #e2e7ec; }
+  tr:has(> :nth-child(4)) > * { flex: 1 1 0; border: 0; text-align: left; }
+  tr:has(> :nth-child(4)) > :first-child { flex: 0 0 100%; padding-bottom: 0; } }
 """
 LONGEST_NUMBER = 30
 """Letters of a cell that stays on one line: a number with its unit, error and place."""

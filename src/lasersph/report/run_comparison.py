@@ -58,7 +58,13 @@ class RunComparison:
         """The settings that differ, and the main numbers."""
         settings = text_table(list(map(list, self.settings)), ("setting", *self.names))
         numbers = text_table(list(map(list, self.rows)), ("", *self.names, "difference"))
-        return f"{settings}\n\n{numbers}" if self.settings else numbers
+        found = f"{settings}\n\n{numbers}" if self.settings else numbers
+        return "\n".join([found, *(f"note: {text}" for text in self.notes)])
+
+    @property
+    def notes(self) -> list[str]:
+        """Lines on amounts that earlier versions gave of the computed part."""
+        return [run.note_on_older for run in self.runs if run.note_on_older is not None]
 
     def figures(self) -> dict[str, Figure]:
         """By name: "relief" where both surfaces move, "temperature" and "melt" where both have
@@ -99,6 +105,7 @@ class RunComparison:
             else paragraph("The two case files say the same."),
             heading("Main numbers"),
             table(self.rows, ("", *self.names, "difference")),
+            *(paragraph(text) for text in self.notes),
         ]
         for number, (name, picture) in enumerate(pictures.items(), start=1):
             body.append(figure(picture, FIGURES[name], number))

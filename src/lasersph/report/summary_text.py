@@ -143,16 +143,17 @@ def note_texts(summary: dict[str, Any]) -> list[str]:
             f"The spacing of {quantity(requested, 'm')} was rounded to {quantity(used, 'm', 6)} so"
             " that whole cells fill the block."
         )
-    # Half of a symmetric body was computed, or a section of a body of revolution.
+    # A part of a symmetric body was computed, or a section of a body of revolution.
     if is_section(summary):
         found.append(
             "A section through the axis r = 0 was computed: widths are diameters, volumes and"
             " energies are those of the whole revolution."
         )
-    elif summary.get("surface", {}).get("symmetry_factor") == 2:
+    elif (images := summary.get("mirror_images", 1)) > 1:
+        part = {2: "half", 4: "a quarter"}[images]
         found.append(
-            "Only x > 0 was computed, half of what is symmetric about x = 0: volumes and energies"
-            " are those of this half, all else is of the whole."
+            f"Only {part} of what is symmetric was computed: volumes, masses, energies and widths"
+            " are those of the whole, numbers of particles those of the part."
         )
     return found
 

@@ -32,6 +32,8 @@ NUMBERS = {
 }
 quantity = partial(format_quantity, typographic=True)
 shown = partial(format_number, typographic=True)
+PARTS = {2: " in one half", 4: " in one quarter"}
+"""Words behind the number of particles, by how many times what was computed makes up the whole."""
 MOST_LISTED = 8
 """Longer lists are not written out."""
 NOT_NUMBERS = ("warnings", OWN_OBSERVERS)
@@ -107,7 +109,8 @@ def place_text(summary: dict[str, Any], key: str, *, typographic: bool = True) -
     # A key of a time, or the letter of an axis before _m.
     if key.endswith("_s"):
         return moment(summary, value, typographic=typographic)
-    return f"{key[-3]} = {format_quantity(value, 'm', typographic=typographic)}"
+    letter = "r" if is_section(summary) and key[-3] == "x" else key[-3]
+    return f"{letter} = {format_quantity(value, 'm', typographic=typographic)}"
 
 
 def main_results(summary: dict[str, Any]) -> list[tuple[Quantity, Any]]:
@@ -182,12 +185,10 @@ def summary_rows(
 
 
 def half_text(summary: dict[str, Any]) -> str:
-    """Words behind the number of particles of a run of one half or a section; else empty."""
+    """Words behind the number of particles of a run of a section or a part; else empty."""
     if is_section(summary):
         return " in a section (r, z)"
-    if summary.get("surface", {}).get("symmetry_factor") != 2:
-        return ""
-    return " at x > 0, as are volumes and energies"
+    return PARTS.get(summary.get("mirror_images", 1), "")
 
 
 def computation(summary: dict[str, Any]) -> Rows:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
+from numpy.typing import NDArray
 
 from lasersph.analytic.melt_depth import MeltEstimate, Vapor, melt_depth
 from lasersph.case import Case
@@ -13,6 +14,7 @@ from lasersph.irradiation.light import COLDEST, HOTTEST
 from lasersph.materials.caloric_curve import CaloricCurve
 from lasersph.particles.layers import Layers, stack
 
+Array = NDArray[np.float64]
 ESTIMATE_COLUMNS = 8
 """Columns of the 1-D estimate of the melt depth. Forecast: it tells the fine depth."""
 LEAST_FINE_LAYERS = 8
@@ -158,6 +160,15 @@ def _estimate(
         fluence = density / share
     curve = caloric_curve(case)
     T, R = laser.reflectivity_table(case.material, COLDEST, HOTTEST)
+
+    def reflectivity(surface: Array, begin: float, end: float) -> Array:
+        """R at temperatures of the surface [K], or that of the step where it is one over time."""
+        if not laser.absorbs_over_time:
+            return np.interp(surface, T, R)
+        interval = (begin, end)
+        _, now = laser.reflectivity_table(case.material, COLDEST, HOTTEST, interval)
+        return np.full_like(surface, now[0])
+
     return melt_depth(
         enthalpy=curve.enthalpy,
         temperature=curve.temperature,
@@ -165,7 +176,7 @@ def _estimate(
         melt_fraction=curve.melt_fraction,
         density=case.material.density_reference,
         absorption_coefficient=laser.absorption_coefficient(case.material),
-        reflectivity=lambda surface: np.interp(surface, T, R),
+        reflectivity=reflectivity,
         fluence=fluence,
         delivered=laser.pulse.delivered,
         end_time=case.end_of_pulse,

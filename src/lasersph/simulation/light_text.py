@@ -87,12 +87,16 @@ def heating_rows(case: Case, heating: HeatingForecast) -> list[tuple[str, str]]:
             ("section", "through the axis of the spot, its light the same at all y: a line focus")
         )
     beside = "" if isnan(hot) or hot_R == R else f", {hot_R:.3g} at {hot:.0f} K"
-    rows.append(("reflectivity", f"{R:.3g} at {cold:.0f} K{beside}"))
+    # An absorptivity over time is said as it is given, and its mean over the pulse.
+    over_time = case.laser is not None and case.laser.absorbs_over_time
+    if over_time:
+        rows.append(("absorptivity", f"over time, {1.0 - R:.3g} in the mean over the pulse"))
+    else:
+        rows.append(("reflectivity", f"{R:.3g} at {cold:.0f} K{beside}"))
     if isnan(hot):
         return rows
-    rows.append(
-        ("absorbed fluence", f"{_absorbed(heating)}, with the reflectivity at {cold:.0f} K")
-    )
+    means = "absorptivity in the mean" if over_time else f"reflectivity at {cold:.0f} K"
+    rows.append(("absorbed fluence", f"{_absorbed(heating)}, with the {means}"))
     rows.append(("highest temperature", _highest(case, heating)))
     # Vapor leaves, or the surface keeps its boiling temperature.
     if heating.boils and case.solver.evaporates:

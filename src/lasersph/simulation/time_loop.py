@@ -272,14 +272,15 @@ class _Loop:
             before: the numbers of the solver before it.
         """
         time, now = self.solver.state.time, self.solver.checkpoint_scalars()
+        parts = self.recipe.mirror_images
         self.snapshots.begin_again(time)
         self.folder.events.append(
             "pause",
             time=time,
             step=self.steps + 1,
             length_s=pause,
-            heat_removed_J=now["energy.pauses"] - before["energy.pauses"],
-            volume_added_m2=now["rearranged"] - before["rearranged"],
+            heat_removed_J=parts * (now["energy.pauses"] - before["energy.pauses"]),
+            volume_added_m2=parts * (now["rearranged"] - before["rearranged"]),
         )
 
     def _progress(self) -> RunProgress:
@@ -326,8 +327,7 @@ class _Loop:
             "case": self.case.name,
             "title": self.case.title,
             "solver": self.case.solver.kind,
-            "dimensions": self.case.solver.dimensions,
-            "amount_dimensions": self.case.geometry.amount_dimension,
+            **self.recipe.amounts(),
             "particles": self.solver.particle_count,
             "spacing_m": self.recipe.layers.spacing,
             "spacing_requested_m": self.case.particles.spacing,

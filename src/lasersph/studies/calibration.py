@@ -25,7 +25,7 @@ from lasersph.studies.calibration_profile import ProfileFit, reduce_profiles
 from lasersph.studies.emulator import Emulator, box_of, fit_emulator
 from lasersph.studies.identifiability import Combination, find_combinations
 from lasersph.studies.posterior import Model, Posterior, find_posterior
-from lasersph.studies.texture.relief import Relief
+from lasersph.studies.texture.compare import AnyRelief
 from lasersph.sweeps.sampling import DIGITS, Choices, Range, sobol
 
 Array = NDArray[np.float64]
@@ -34,7 +34,7 @@ Numbers = Mapping[str, float]
 MakeRuns = Callable[[Sequence[Settings]], Sequence[Numbers | None]]
 """Makes runs with these settings (SI, by key) exist: the numbers of their summaries, None of those
 that fail. It is called with all runs again each time, the new ones last."""
-MakeReliefs = Callable[[Sequence[Settings]], Sequence[Relief | None]]
+MakeReliefs = Callable[[Sequence[Settings]], Sequence[AnyRelief | None]]
 """The reliefs of the same runs, where profiles are measured; called after `MakeRuns`."""
 GOOD_ENOUGH = 0.3
 """Standard deviation of the emulator over the measured one from which runs add nothing: it widens

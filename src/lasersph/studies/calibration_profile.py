@@ -3,8 +3,9 @@
     z = a + b x + c y + h((x - x_0)/s, (y - y_0)/s; keys) + noise of standard error sigma
 
 h repeats, that of a run of one period, or it is that of a spot, assembled from cells
-(`calibration_spot`). The measurement is aligned with the relief that it fits best, of a spot at any
-factor on the fluence (`texture.compare`). About that place everything is linear: a, b, c, x_0, of
+(`calibration_spot`), or that of a round one, a section (r, z). The measurement is aligned with the
+relief that it fits best, of a spot of cells at any factor on the fluence (`texture.compare`). About
+that place everything is linear: a, b, c, x_0, of
 a map its angle, and y_0 of a spot are taken out of measured and computed heights by projection, and
 so is s as far as it is not known beforehand. Of what is left of the computed heights, at the
 measured points, principal components u_k over the runs [Jolliffe2016] give the numbers,
@@ -35,13 +36,12 @@ from scipy.special import gammaincc
 from lasersph.studies.calibration_plan import CalibrationPlan, NoCalibration
 from lasersph.studies.calibration_target import ProfileTarget
 from lasersph.studies.measured_value import Measured
-from lasersph.studies.texture.compare import MOST_POINTS, Comparison, compare
+from lasersph.studies.texture.compare import MOST_POINTS, AnyRelief, Comparison, compare
 from lasersph.studies.texture.measurement import NoComparison, correlated_points
-from lasersph.studies.texture.relief import Relief
 
 Array = NDArray[np.float64]
 Numbers = Mapping[str, float]
-Reliefs = Sequence[Relief | None]
+Reliefs = Sequence[AnyRelief | None]
 COMPONENT = "profile_"
 """First letters of the names of components."""
 STEPS = 256
@@ -91,7 +91,7 @@ class ProfileFit:
         """Computed heights (n,) [m] of components (k,) [m]."""
         return self.middle + np.asarray(components, float) @ self.shapes
 
-    def at(self, relief: Relief) -> Array:
+    def at(self, relief: AnyRelief) -> Array:
         """Heights (n,) of a relief at the measured points [m]."""
         return relief.at(self.comparison.x, self.comparison.y, 1.0)
 
@@ -140,7 +140,7 @@ def _fit(number: int, target: ProfileTarget, reliefs: Reliefs) -> tuple[ProfileF
     x, y, is_map = best.x, best.y, np.ptp(best.y) > 0.0
 
     # slope of the relief about the place of alignment, by central differences
-    factor, step = best.values.get("fluence_factor", 1.0), nearest.table.period / STEPS
+    factor, step = best.values.get("fluence_factor", 1.0), nearest.period / STEPS
 
     def slope(along: float, across: float) -> Array:
         before, after = (
@@ -158,7 +158,7 @@ def _fit(number: int, target: ProfileTarget, reliefs: Reliefs) -> tuple[ProfileF
         slope_y = slope(0.0, 1.0)
         moves.append(slope_y)
     if is_map:
-        moves += [y, y * slope_x - x * slope_y]
+        moves += [y] if nearest.is_round else [y, y * slope_x - x * slope_y]
     free, scale = np.stack(moves, axis=1), best.values["lateral_scale"]
     scale_slope = -(x * slope_x + y * slope_y) / scale  # dh/ds
     # s is 1 +- its error beforehand: the one moves the heights, the other widens their errors
@@ -202,13 +202,13 @@ def _fit(number: int, target: ProfileTarget, reliefs: Reliefs) -> tuple[ProfileF
 
 
 def _nearest(
-    number: int, target: ProfileTarget, reliefs: Sequence[Relief]
-) -> tuple[Comparison, Relief]:
+    number: int, target: ProfileTarget, reliefs: Sequence[AnyRelief]
+) -> tuple[Comparison, AnyRelief]:
     """The comparison with the relief that fits best. Raises NoCalibration."""
-    uneven = [one for one in reliefs if np.ptp(one.table.values["height"]) > 0.0]
-    tables: dict[int, Relief] = {}  # spots of one table differ by their light alone
+    uneven = [one for one in reliefs if not one.is_flat]
+    tables: dict[int, AnyRelief] = {}  # spots of one table differ by their light alone
     for one in uneven:
-        tables.setdefault(id(one.table), one)
+        tables.setdefault(one.family, one)
     found = [(_aligned(one, target), one) for one in tables.values()]
     good = [(aligned, one) for aligned, one in found if aligned is not None]
     if len(uneven) < 2 or not good:
@@ -217,7 +217,7 @@ def _nearest(
 
 
 @lru_cache(maxsize=64)
-def _aligned(relief: Relief, target: ProfileTarget) -> Comparison | None:
+def _aligned(relief: AnyRelief, target: ProfileTarget) -> Comparison | None:
     """The comparison with a relief, made once; None where that is flat beside the measurement."""
     try:
         return compare(relief, target.surface, target.scale_error)

@@ -164,7 +164,8 @@ class _Reader:
     def _with_spot(self, plan: CalibrationPlan, contents: CaseContents) -> CalibrationPlan:
         """The plan with the cells of its spots, where the case has a spot that was measured."""
         measured = [number for number, one in enumerate(plan.conditions) if one.profile]
-        if not measured or contents.laser is None or contents.laser.spot is None:
+        has_spot = contents.laser is not None and contents.laser.spot is not None
+        if not measured or not has_spot or contents.geometry.is_axisymmetric:
             if "cells" in self.entry.runs.model_fields_set:
                 self.mistakes.add(
                     ("runs", "cells"),

@@ -41,7 +41,9 @@ from lasersph.studies.calibration_plan import CalibrationPlan
 from lasersph.studies.calibration_reading import read_calibration_plan
 from lasersph.studies.posterior import GRID
 from lasersph.studies.texture.cells import Cell, read_cell
-from lasersph.studies.texture.relief import Relief, repeating_relief
+from lasersph.studies.texture.compare import AnyRelief
+from lasersph.studies.texture.relief import repeating_relief
+from lasersph.studies.texture.round_relief import RoundRelief, read_round_relief
 from lasersph.studies.texture.spot import NoTexture
 from lasersph.sweeps import Engine, Event, LocalEngine, Point, Study, Table, make_runs
 from lasersph.sweeps.folder import RUNS
@@ -140,7 +142,7 @@ class _Runs:
         rows = self.table([self.plan.template.point(dict(one)) for one in settings]).rows
         return [row.numbers if row.status == "complete" else None for row in rows]
 
-    def reliefs(self, settings: Sequence[Settings]) -> list[Relief | None]:
+    def reliefs(self, settings: Sequence[Settings]) -> list[AnyRelief | None]:
         """Reliefs of the runs with these settings, or of the spots; None of those that fail, and
         where no profile is measured."""
         profile = next((one.profile for one in self.plan.conditions if one.profile), None)
@@ -151,6 +153,8 @@ class _Runs:
         # spots share cells: each is made once
         every = {point.hash: point for cells in points for point in cells}
         rows = dict(zip(every, self.table(list(every.values())).rows, strict=True))
+        if profile.is_round:
+            return [self._round(rows[one.hash]) for (one,) in points]
         found = [[self._cell(rows[one.hash], profile.period) for one in cells] for cells in points]
         if spot is not None:
             return [
@@ -173,6 +177,11 @@ class _Runs:
         if row.status == "complete" and row.run not in self.cells:
             self.cells[row.run] = read_cell(open_run(self.path / RUNS / row.run), period)
         return self.cells.get(row.run)
+
+    def _round(self, row: Row) -> RoundRelief | None:
+        """The relief of a run of a section (r, z); None of one that failed."""
+        done = row.status == "complete"
+        return read_round_relief(self.path / RUNS / row.run) if done else None
 
     def table(self, points: Sequence[Point]) -> Table:
         """The table of these points, all runs made. Raises Stopped."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import pi, sqrt
 from pathlib import Path
 from typing import Annotated
 
@@ -14,7 +15,12 @@ from lasersph.output.height_map import HeightMap
 from lasersph.output.surface_files.read import read_surface
 from lasersph.studies.texture.compare import SCALE_ERROR
 from lasersph.studies.texture.make import period_of_lines, spot_of
-from lasersph.studies.texture.measurement import NoComparison, point_noise, refuse_odd
+from lasersph.studies.texture.measurement import (
+    NoComparison,
+    point_noise,
+    refuse_coarse,
+    refuse_odd,
+)
 
 
 class ProfileEntry(Model):
@@ -35,8 +41,9 @@ class ProfileTarget:
     """A measured profile or height map across lines that repeat, or of a spot.
 
     Attributes:
-        file: its name. surface: its heights. period: of the lines [m].
-        error: standard error of a point [m]. scale_error: of its lateral scale, 1 beforehand.
+        file: its name. surface: its heights. period: of the lines, or diameter of the light of a
+            round spot [m]. error: standard error of a point [m]. scale_error: of its lateral scale,
+            1 beforehand. is_round: whether it is that of a section (r, z).
     """
 
     file: str
@@ -44,6 +51,7 @@ class ProfileTarget:
     period: float
     error: float
     scale_error: float
+    is_round: bool = False
 
 
 def read_target(entry: ProfileEntry, folder: Path, contents: CaseContents) -> ProfileTarget:
@@ -55,6 +63,8 @@ def read_target(entry: ProfileEntry, folder: Path, contents: CaseContents) -> Pr
         OutputError: the file cannot be read.
     """
     laser = contents.laser
+    if contents.geometry.is_axisymmetric:
+        return _round_target(entry, folder, contents)
     is_spot = laser is not None and laser.spot is not None
     period = spot_of(contents)[1] if is_spot else period_of_lines(contents)
     if is_spot and laser is not None and laser.displacement and laser.pulse.count > 1:
@@ -67,3 +77,18 @@ def read_target(entry: ProfileEntry, folder: Path, contents: CaseContents) -> Pr
     refuse_odd(surface, period)
     error = entry.error or point_noise(surface.z)
     return ProfileTarget(entry.file, surface, period, error, entry.scale_error)
+
+
+def _round_target(entry: ProfileEntry, folder: Path, contents: CaseContents) -> ProfileTarget:
+    """The measurement of a round spot. Raises NoComparison, OutputError."""
+    area = None if contents.laser is None else contents.laser.area
+    if not contents.surface_moves or area is None:
+        raise NoComparison(
+            "the case leaves no relief of a spot: a profile needs light that ends, and "
+            'solver.flow.surface = "moving"'
+        )
+    # a spot wider than what was measured is refused before any run
+    surface, diameter = read_surface(folder / entry.file), 2.0 * sqrt(area / pi)
+    refuse_coarse(surface, diameter, "the spot")
+    error = entry.error or point_noise(surface.z)
+    return ProfileTarget(entry.file, surface, diameter, error, entry.scale_error, is_round=True)

@@ -21,6 +21,7 @@ from lasersph.report.run_comparison import RunComparison, compare_runs
 from lasersph.studies.texture import compare as alignment
 from lasersph.studies.texture import relief as reliefs
 from lasersph.studies.texture.measurement import NoComparison
+from lasersph.studies.texture.round_relief import mean_over_angle
 
 if TYPE_CHECKING:
     from lasersph.plots.notebook_figure import Figure
@@ -52,14 +53,20 @@ class MeasuredComparison:
         return f"{aligned}\n\n{text_table(difference_rows(content))}\n{content['sentence']}"
 
     def figures(self) -> dict[str, Figure]:
-        """By name: "comparison", both profiles and their difference (of a map the line at y = 0),
-        and of a map "comparison-maps"."""
+        """By name: "comparison", both profiles and their difference (of a map the line at y = 0, of
+        a round spot means over the angle), and of a map "comparison-maps"."""
         found, (_, step) = self.aligned, self.surface.steps
         is_map = self.surface.y.size > 1
         width = 0.51 * step if is_map else np.inf
         near = np.abs(found.y - found.y[np.argmin(np.abs(found.y))]) < width
-        lines = found.x[near], found.measured[near], found.ours[near]
-        drawn = {"comparison": comparison_figure(*lines, self.content)}
+        x, measured, ours = found.x[near], found.measured[near], found.ours[near]
+        across = "x"
+        if rings := self.content.get("over_r"):
+            x, measured, ours = (
+                np.array(rings[f"{name}_m"]) for name in ("r", "measured", "computed")
+            )
+            across = "r"
+        drawn = {"comparison": comparison_figure(x, measured, ours, self.content, across)}
         if is_map:
             maps = comparison_maps(found.x, found.y, found.measured, found.ours)
             drawn["comparison-maps"] = maps
@@ -98,9 +105,9 @@ def compare(
         found.write("runs/beside")                    # all figures, numbers, a page
 
     Args:
-        folder: of a texture, or of a run of one period. profile: a measured profile or height map
-            (csv, x3p, sdf), which is leveled and aligned; or the folder of another run, for
-            which see `compare_runs`.
+        folder: of a texture, or of a run of one period or of a round spot, a section (r, z).
+            profile: a measured profile or height map (csv, x3p, sdf), which is leveled and aligned;
+            or the folder of another run, for which see `compare_runs`.
 
     Raises:
         OutputError: a folder or file cannot be read, or a run is not complete.
@@ -115,4 +122,20 @@ def compare(
     except NoComparison as error:
         raise NoComparison(f"{theirs}: {error}") from None
     names = theirs.name, relief.name
-    return MeasuredComparison(names, surface, found, alignment.answer(found))
+    content = alignment.answer(found)
+    if relief.is_round:
+        content["over_r"] = rings_of(found, surface.steps[0])
+    return MeasuredComparison(names, surface, found, content)
+
+
+def rings_of(found: alignment.Comparison, step: float) -> dict[str, list[float]]:
+    """Means over the angle of measured and computed heights [m], and by how much what they differ
+    by scatters on each ring, which tells how round the spot is.
+
+    Args:
+        step: width of the rings [m].
+    """
+    heights = np.array([found.measured, found.ours, found.residual])
+    r, measured, _, computed, _, _, spread = mean_over_angle(found.x, found.y, heights, step)
+    named = {"r_m": r, "measured_m": measured, "computed_m": computed, "spread_m": spread}
+    return {name: values.tolist() for name, values in named.items()}

@@ -16,7 +16,7 @@ from os import PathLike
 from pathlib import Path
 from typing import Any, Literal
 
-from lasersph.lasers.laser import AMOUNTS
+from lasersph.lasers.laser_keys import AMOUNTS
 from lasersph.studies.variation import Prepare, Run, changed, prepare_nothing, simulate
 
 Event = Literal["melt", "vaporize", "ablate"]

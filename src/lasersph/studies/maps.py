@@ -17,16 +17,22 @@ from numpy.typing import NDArray
 from lasersph.input import did_you_mean, format_quantity
 from lasersph.input.key_units import unit_in, unit_of
 from lasersph.observers.observer_list import RESULTS
+from lasersph.output.older_results import images_of_older, is_amount
 from lasersph.plots.process_map import MapAxis, ProcessMap
 from lasersph.studies.emulator import box_of
 from lasersph.studies.event_lines import events_of, one_sided_notes, onsets_of
 from lasersph.studies.run_places import RunPlaces
 from lasersph.studies.sweep_numbers import box_of_runs, numerical_deviation, sizes_of
 from lasersph.sweeps import Table
+from lasersph.sweeps.folder import RUNS
 
 Array = NDArray[np.float64]
 LEAST_RUNS = 3
 SHOWN = "melt.depth_half_max_m"
+OLDER = (
+    "are by an earlier version, which gave amounts of the part that it computed; they are shown as"
+    " those of the whole"
+)
 TOLERANCE = 0.05
 """Share of the largest value above which an emulator's standard deviation is hatched."""
 
@@ -91,6 +97,8 @@ def process_map(
     if (lost := int((~good).sum())) > 0:
         has = "has" if lost == 1 else "have"
         notes.append(f"{lost} of {good.size} runs {has} no result: nothing is interpolated there.")
+    if is_amount(show) and (older := count_of_older(table)):
+        notes.append(f"{older} of {good.size} runs {OLDER}.")
     if target is not None and not lines["target"]:
         notes.append(f"{format_quantity(target, unit)} lies nowhere between the runs.")
     return ProcessMap(
@@ -114,6 +122,12 @@ def process_map(
         target=target,
         notes=tuple(notes),
     )
+
+
+def count_of_older(table: Table) -> int:
+    """How many complete runs gave amounts of the computed part, which are multiplied as read."""
+    folders = (table.path / RUNS / row.run for row in table.rows if row.status == "complete")
+    return sum(images_of_older(folder) > 1 for folder in folders)
 
 
 def _chosen_keys(table: Table, x: str | None, y: str | None) -> list[str]:

@@ -26,7 +26,7 @@ from lasersph.report.tables import in_words
 from lasersph.studies.variation import Prepare, Run, changed, prepare_nothing, simulate
 
 NOT_ANSWERS = re.compile(
-    r"(dimensions|particles|schema_version|spacing_m|spacing_requested_m|steps|threads|time_s"
+    r"(dimensions|mirror_images|particles|schema_version|spacing_m|spacing_requested_m|steps|threads|time_s"
     r"|wall_time_s|numerical_sd\..*|time_step\..*|iterations\..*|material\..*|dimensionless\..*|energy\.imbalance_relative(_at_s)?"
     rf"|energy\.({'|'.join(NUMERICAL)})_(J|max_J|max_at_s)"
     r"|surface\.(symmetry_factor|depth_of_particle_m)"

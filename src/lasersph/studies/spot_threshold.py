@@ -32,8 +32,7 @@ CUBIC_MICROMETERS_PER_MICROJOULE = 1e12
 @dataclass(frozen=True)
 class SpotCrater:
     """One run: peak fluence [J/m^2], diameter, depth at the axis [m], removed volume [m^3] and
-    energy of the light [J], both of the computed part of the spot; per length in 2-D, as
-    `volume_unit` says."""
+    energy of the light [J], both of the whole spot; per length in 2-D, as `volume_unit` says."""
 
     fluence: float
     diameter: float

@@ -35,6 +35,7 @@ from lasersph.case import Case
 from lasersph.input import format_quantity
 from lasersph.output import open_run
 from lasersph.output.atomic import replace_json
+from lasersph.output.older_results import RESULTS_SCHEMA
 from lasersph.simulation.layers import expected_melt
 from lasersph.solvers.step_control import StepFailed
 from lasersph.studies.companions import (
@@ -48,7 +49,6 @@ from lasersph.studies.spacing_study import StudyRow, assess_summaries, numbers_o
 from lasersph.studies.variation import Prepare, Run, prepare_nothing, simulate
 
 FILE = "uncertainty.json"
-SCHEMA = 1
 COVERAGE = 2.0
 """Standard deviations of a normal distribution that hold about 95 % [GUM2008, 6.3.3]."""
 Numbers = dict[str, float]
@@ -97,7 +97,7 @@ def assess_uncertainty(
     # inputs: each higher and lower by its standard uncertainty
     shifts = {one.key: study.both_sides(fixed, one, numbers) for one in chosen}
     content = {
-        "schema_version": SCHEMA,
+        "schema_version": RESULTS_SCHEMA,
         "case_hash": case.hash(),
         "coverage": COVERAGE,
         "spacings_m": spacings,

@@ -75,6 +75,41 @@ def lies_at_surface(depth, V, spacing):
     return 1.0 if depth * spacing < min(V, spacing * spacing) else 0.0
 
 
+class OwnColumns:
+    """Columns whose particles keep to them, and of which one particle each lies at the surface.
+
+    Args:
+        columns: their number; the particles at the surface come first. area: (n,) of columns seen
+            from above [m^(d-1)], coarse ones beside them included, 0 of all that lies deeper.
+
+    Attributes:
+        area: (n,) true one of the surface [m^(d-1)].
+    """
+
+    def __init__(self, backend: Backend, columns: int, area: Array) -> None:
+        self.backend, self.count = backend, columns
+        self._from_above, self.area = area, backend.zeros(area.shape[0])
+        self._length_ratio = backend.asarray(np.ones(columns))
+        self._mean = backend.zeros(columns)
+        backend.copy(area, self.area)
+
+    def incline(self, length_ratio: Array) -> None:
+        """Take the true length of the surface over that seen from above, (columns,)."""
+        self._length_ratio = length_ratio
+        fields = {"a": self.backend.head(self._from_above, self.count), "b": length_ratio}
+        self.backend.pointwise(product, fields, self.backend.head(self.area, self.count))
+
+    def mean(self, values: Array) -> Array:
+        """(columns,) of a field (n,) at the surface."""
+        return self.backend.head(values, self.count)
+
+    def mean_from_above(self, flux: Array) -> Array:
+        """(columns,) flux (n,) through the surface, per area that is seen from above."""
+        fields = {"a": self.mean(flux), "b": self._length_ratio}
+        self.backend.pointwise(product, fields, self._mean)
+        return self._mean
+
+
 class SurfaceColumns:
     """Columns below a surface from `low` on [m], of one width [m].
 

@@ -15,12 +15,12 @@ support.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import cos
+from math import cos, exp
 
 import numpy as np
 from numpy.typing import NDArray
 
-from lasersph.boundaries.settings import TemperatureWave
+from lasersph.boundaries.surface_drives import TemperatureBump, TemperatureWave
 from lasersph.compute.array_types import Array, Rows
 from lasersph.compute.backend import Backend
 from lasersph.compute.vectors import dot, interpolate
@@ -48,7 +48,7 @@ class ImposedTemperature:
     """Temperature that a case gives a surface: mean [K] and what varies along x."""
 
     mean: float
-    wave: TemperatureWave | None = None
+    drive: TemperatureWave | TemperatureBump | None = None
 
 
 def mark_surface(x, n, plane, near, far):
@@ -62,9 +62,15 @@ def surface_tension(T, T_nodes, gamma_nodes):
     return interpolate(T, T_nodes, gamma_nodes)
 
 
-def imposed_temperature(x, along, mean, amplitude, wave_number):
-    """Given temperature of the surface above a particle [K]."""
+def imposed_wave(x, along, mean, amplitude, wave_number):
+    """Given temperature of the surface above a particle [K], with a wave in it."""
     return mean + amplitude * cos(wave_number * dot(x, along))
+
+
+def imposed_bump(x, along, mean, amplitude, radius):
+    """Given temperature of the surface above a particle [K], with a bump in it."""
+    share = dot(x, along) / radius
+    return mean + amplitude * exp(-share * share)
 
 
 def component(g, along):
@@ -150,17 +156,7 @@ class FlatSurface(Surface):
         # temperature of the surface: that of the particles at it, or a given one
         backend.copy(now.T, self.temperature)
         if self.given is not None:
-            wave = self.given.wave
-            amplitude = wave.share_of(*now.interval) * wave.amplitude if wave else 0.0
-            backend.pointwise(
-                imposed_temperature,
-                {"x": now.position},
-                self.temperature,
-                along=self.tangent,
-                mean=self.given.mean,
-                amplitude=amplitude,
-                wave_number=2.0 * np.pi / wave.period if wave else 0.0,
-            )
+            self._impose_temperature(self.given, now)
         mark = neighbors.gather(self.at_surface)
         self._find_slope(self.temperature, self.gradient, rows, neighbors, mark)
         if not self.has_stress:
@@ -193,6 +189,22 @@ class FlatSurface(Surface):
         # v beyond the surface, which shows its pairs the stress
         fields = {"tau": self.stress, "depth": self.depth, "fluidity": self._fluidity}
         backend.pointwise(velocity_jump, fields, self.ghost_velocity_jump, eta=self.viscosity)
+
+    def _impose_temperature(self, given: ImposedTemperature, now: SurfaceStep) -> None:
+        """Set the temperature to what the case gives in the interval of the step."""
+        drive, out = given.drive, self.temperature
+        if drive is None:
+            self.backend.fill(out, given.mean)
+            return
+        # a mean, and a wave or a bump while it acts
+        fields = {"x": now.position}
+        place = {"along": self.tangent, "mean": given.mean}
+        place["amplitude"] = drive.share_of(*now.interval) * drive.amplitude
+        if isinstance(drive, TemperatureBump):
+            self.backend.pointwise(imposed_bump, fields, out, **place, radius=drive.radius)
+            return
+        wave_number = 2.0 * np.pi / drive.period
+        self.backend.pointwise(imposed_wave, fields, out, **place, wave_number=wave_number)
 
     def _rows(self, mark: Array, active: Array) -> Rows:
         """Index array of marked particles that are active."""

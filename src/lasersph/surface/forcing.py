@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from lasersph.boundaries.settings import SurfaceWave
+from lasersph.boundaries.surface_drives import SurfaceDrive, SurfaceWave
 from lasersph.surface.flat_surface import ImposedTemperature
 
 
@@ -23,6 +23,6 @@ class SurfaceForcing:
     """
 
     temperature: ImposedTemperature | None = None
-    pressure: SurfaceWave | None = None
+    pressure: SurfaceDrive | None = None
     mass_flux: SurfaceWave | None = None
     recoil: Callable[[NDArray[np.float64]], NDArray[np.float64]] | None = None

@@ -14,6 +14,11 @@ are those of the smoothed field F eta, see `smoothing`: all waves are pulled bac
 tension, short ones less. A parabola fitted around each point does not do that: its second
 derivative has the wrong sign for some short waves, which then grow.
 
+In a section (r, z) columns are rings: with their areas 2 pi r dx and sides 2 pi r,
+
+    d eta_k/dt = -(r_k+1/2 Q_k+1/2 - r_k-1/2 Q_k-1/2)/(r_k dx) - m_k S_k/rho
+    kappa = -eta''/S^3 - eta'/(r S)
+
 Beside a pin -d kappa/d eta is not symmetric: the field cannot follow a column there, the pressure
 on it can, and waves may take up energy. With n = 5 one that leaves the last column standing grows
 by 0.2/ns over a film of steel of 72 nm, against the friction of its bottom. With n = 4, and columns
@@ -68,7 +73,8 @@ class HeightField:
     Args:
         start: lower end of each axis [m]. widths: of a column [m]. ends: how the field goes on at
             both ends of each axis. cutoff: lambda_c, the length of waves half of whose height
-            counts for slope and curvature [m].
+            counts for slope and curvature [m]. is_axisymmetric: whether columns are rings, at
+            distances from their axis.
 
     Attributes:
         height: `shape`, eta [m]. pins: heights of the lower and the upper end of each axis, where
@@ -82,14 +88,16 @@ class HeightField:
         shape: tuple[int, ...],
         ends: tuple[Ends, ...],
         cutoff: float,
+        *,
+        is_axisymmetric: bool = False,
     ) -> None:
         self.start = start
+        self.is_axisymmetric = is_axisymmetric
         self.widths = widths
         self.shape = shape
         self.ends = ends
         self.cutoff = cutoff
         self.count = prod(shape)
-        self.column_area = prod(widths)
         self.height = np.zeros(shape)
         self.pins: Pins = ((0.0, 0.0),) * len(shape)
         self._smoothing: dict[tuple[tuple[float, ...], bool], Smoothing] = {}
@@ -100,6 +108,15 @@ class HeightField:
         """Middle of the columns along an axis [m]."""
         number = np.arange(self.shape[axis], dtype=np.float64)
         return self.start[axis] + self.widths[axis] * (number + 0.5)
+
+    @property
+    def measure(self) -> Array:
+        """`shape`, 2 pi r of rings [m], 1 of columns of a plane."""
+        return 2.0 * pi * self.centers() if self.is_axisymmetric else np.ones(self.shape)
+
+    def volume_of(self, thickness: Array) -> float:
+        """Volume of a thickness `shape` of all columns [m^d], of rings [m^3]."""
+        return float(np.sum(thickness * self.measure)) * prod(self.widths)
 
     def copy(self) -> HeightField:
         """Another field that shares what its smoothing takes."""
@@ -156,6 +173,9 @@ class HeightField:
             second = self._stencil(SECOND, smoothed, EVEN_PARITY, axis) / width**2
             others = (square[other] for other in range(len(self.shape)) if other != axis)
             terms.append(sum(others, 1.0) * second)
+        if self.is_axisymmetric:
+            # the curvature around the axis, eta'/r times S^2
+            terms.append((1.0 + square[0]) * slopes[0] / self.centers())
         for a, b in combinations(range(len(self.shape)), 2):
             # eta_ab: the slope along b is even along a
             terms.append(-2.0 * slopes[a] * slopes[b] * self.derivative(slopes[b], EVEN_PARITY, a))
@@ -170,6 +190,11 @@ class HeightField:
         """
         height = self.height
         for axis, (Q, width) in enumerate(zip(flux, self.widths, strict=True)):
+            if self.is_axisymmetric:
+                # through sides 2 pi r into rings of area 2 pi r dx
+                r = self.centers()
+                sides = np.append(r - 0.5 * width, r[-1] + 0.5 * width)
+                Q, width = sides * Q, r * width
             height = height - step * np.diff(Q, axis=axis) / width
         return height
 
@@ -182,7 +207,8 @@ class HeightField:
         change = self.smoothed - self.height
 
         # no volume may come or go: the mean change is taken back, none of it at the pins
-        change -= self._raised * (np.sum(change) / np.sum(self._raised))
+        measure = self.measure
+        change -= self._raised * (np.sum(measure * change) / np.sum(measure * self._raised))
         self.height = self.height + min(share, 1.0) * change
 
     def first_harmonic(self, period: float) -> float:

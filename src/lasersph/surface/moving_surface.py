@@ -89,6 +89,8 @@ class MovingSurface(Surface):
     largest_speed = MAX_SPEED
     pressure_gradient = DifferenceGradient()
     time_rule = Midpoint()
+    loss_shares = (0.5, 0.5)
+    """Shares of what leaves in a step that the line loses in its halves."""
 
     def __init__(
         self,
@@ -240,17 +242,10 @@ class MovingSurface(Surface):
 
     def hold_thin_melt(self, position: Array, volume: Array, flows: Array) -> float:
         """Let what is molten under too thin columns rest; returns how many particles flow."""
-        backend, line, everywhere = self.backend, self.line, np.ones(self.line.count, bool)
-        # thickness of the melt in each column, as a mean of five
-        members = self._members(position, flows)
-        found = backend.zeros(line.count)
-        tables: Constants = {"row_start": members.row_start, "member": members.neighbor}
-        tables |= {"V": volume, "inverse": self._grid["inverse"]}
-        backend.pointwise(loops.thickness_of, self._columns, found, **tables)
-        thickness = line.mean_of_neighbors(backend.to_host(found), everywhere)
+        backend, line = self.backend, self.line
         # columns over which the melt runs move, however little of it has arrived there
-        thick = thickness >= MIN_MELT_THICKNESS * self.spacing
-        self._is_overrun = self.segments.overrun(thick) & ~thick
+        thick = self._is_thick(self._melt_height(position, volume, flows))
+        self._is_overrun = self._overrun(thick)
         self.segments.choose(thick | self._is_overrun)
         # particles of the columns that do not move rest
         is_molten = backend.asarray(self.segments.is_molten.astype(float))
@@ -258,16 +253,33 @@ class MovingSurface(Surface):
         fields = {"x": position, "flows": flows}
         return backend.pointwise(loops.hold_column, fields, (flows,), reduce=("sum",), **grid)[0]
 
+    def _melt_height(self, position: Array, volume: Array, flows: Array) -> HostArray:
+        """(columns,) height of what flows [m]."""
+        found, members = self.backend.zeros(self.line.count), self._members(position, flows)
+        tables: Constants = {"row_start": members.row_start, "member": members.neighbor}
+        tables |= {"V": volume, "inverse": self._grid["inverse"]}
+        self.backend.pointwise(loops.thickness_of, self._columns, found, **tables)
+        return self.backend.to_host(found)
+
+    def _is_thick(self, height: HostArray) -> NDArray[np.bool_]:
+        """(columns,) whether the melt, of a height (columns,) [m], is thick, as a mean of five."""
+        thickness = self.line.mean_of_neighbors(height, np.ones(height.size, bool))
+        return thickness >= MIN_MELT_THICKNESS * self.spacing
+
+    def _overrun(self, thick: NDArray[np.bool_]) -> NDArray[np.bool_]:
+        """(columns,) over which melt runs from the thick ones (columns,)."""
+        return self.segments.overrun(thick) & ~thick
+
     def advance_first_half(self, now: SurfaceStep) -> None:
         """Move the line through the first half of a step, with the velocity at its begin."""
         self.segments.update_heights()
         self.loss.begin_step(self.backend, now, self.segments)
-        self._go_halfway(now)
+        self._go_halfway(now, self.loss_shares[0])
 
     def advance_second_half(self, now: SurfaceStep) -> float:
         """Move the line through the second half of a step, with the velocity at its end, and damp
         short waves; find the particles again, and take from them what has left in the step."""
-        self._go_halfway(now)
+        self._go_halfway(now, self.loss_shares[1])
         # short waves are damped within the time of the fastest wave that the line shows
         line, moved, step = self.line, self.line.height.copy(), now.interval[1] - now.interval[0]
         rate = fastest_wave(self._tension, self.liquid.density, line.cutoff)
@@ -278,21 +290,24 @@ class MovingSurface(Surface):
         line.height = moved
         self._update_tables()
         self.find(now.position)
-        # the particles lose what has left through the surface
+        return self._take_mass(now)
+
+    def _take_mass(self, now: SurfaceStep) -> float:
+        """Take from the particles what has left through the surface; returns its heat [J/m]."""
         if not self.loss.lost.any():
             return 0.0
         density, spacing = self.liquid.particle_density, self.spacing
         lost, gone = self.loss.lost, self.loss.followed / density
-        return take_mass(self.backend, now, self.depth, line, lost, gone, spacing, density)
+        return take_mass(self.backend, now, self.depth, self.line, lost, gone, spacing, density)
 
-    def _go_halfway(self, now: SurfaceStep) -> None:
-        """Move the line by what flows in half of a step, and by half of what leaves in it."""
+    def _go_halfway(self, now: SurfaceStep, loss_share: float) -> None:
+        """Move the line by what flows in half of a step, and by a share of what leaves in it."""
         self.segments.update_heights()
         flux = volume_flux(self.backend, self.line, self.bottom, now, self._ends)
         half, height = 0.5 * (now.interval[1] - now.interval[0]), self.line.height.copy()
         for part, own in self.segments.parts:
             flow = flux_through(own, part, flux)
-            height[part] = own.heights_after(half, flow) - 0.5 * self.loss.lost[part]
+            height[part] = own.heights_after(half, flow) - loss_share * self.loss.lost[part]
         self.line.height = height
         self._update_tables()
 

@@ -76,11 +76,11 @@ def find_conditions(
         fields["g_ij"] = neighbors.viscous_weights
         out = (backend.zeros(count), backend.zeros(count), length)
         backend.pair_sum(terms, neighbors.pairs, fields, out, finish=finish)
-    # length that the particles of each column see, over its own
+    # length that the particles of each column see, over its own, of rings over their area
     seen, places = backend.zeros(line.count), {"k": backend.asarray(np.arange(line.count), "index")}
     tables = {"row_start": members.row_start, "member": members.neighbor, "V": length}
     backend.pointwise(loops.thickness_of, places, seen, **tables, inverse=1.0 / line.widths[0])
-    share = backend.to_host(seen) / (line.length_ratio * relative_viscosity)
+    share = backend.to_host(seen) / (line.measure * line.length_ratio * relative_viscosity)
     share = np.where(molten, line.mean_of_neighbors(share, molten), 1.0)
     condition = PressureCondition(coefficient=a, value=p_b)
     return condition, np.clip(share, LEAST_SHARE, 1.0 / LEAST_SHARE)

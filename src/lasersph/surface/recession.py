@@ -157,7 +157,7 @@ class MassLoss:
     Attributes:
         followed: (columns,) evaporated mass per area seen from above that has left [kg/m^2].
         lost: (columns,) thickness that leaves in the step [m]. volume: that has left so far
-            [m^2]. delay: time in which what is still there has evaporated [s].
+            [m^2], of rings [m^3]. delay: time in which what is still there has evaporated [s].
     """
 
     def __init__(self, columns: int, density: float, forcing: SurfaceForcing) -> None:
@@ -189,7 +189,7 @@ class MassLoss:
                 self.followed[columns] += vapor
                 mass = mass + vapor
             self.lost[columns] = mass / self.density
-        self.volume += float(np.sum(self.lost)) * whole.column_area
+        self.volume += whole.volume_of(self.lost)
 
 
 def take_mass(

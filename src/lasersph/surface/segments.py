@@ -74,9 +74,7 @@ class SurfaceSegments:
                 continue
             columns = (np.arange(begin, end) + first) % count
             self.is_molten[columns] = True
-            self.parts.append(
-                Segment(columns, self._line(columns.size, (left, right), len(self.parts)))
-            )
+            self.parts.append(Segment(columns, self._line(columns, (left, right))))
 
     def overrun(self, thick: NDArray[np.bool_]) -> NDArray[np.bool_]:
         """(count,) columns over which melt advances from the thick ones, (count,), beside them."""
@@ -107,10 +105,15 @@ class SurfaceSegments:
             )
             line.pins = ((low, high),)
 
-    def _line(self, count: int, ends: Ends, part: int) -> HeightField:
+    def _line(self, columns: NDArray[np.int64], ends: Ends) -> HeightField:
         """A line of its own; smoothing is prepared once for each length and kind of ends."""
-        key = (count, ends)
+        key, whole = (columns.size, ends), self.whole
         if key not in self._lines:
-            whole = self.whole
-            self._lines[key] = HeightField((0.0,), whole.widths, (count,), (ends,), whole.cutoff)
-        return self._lines[key].copy()
+            self._lines[key] = HeightField(
+                whole.start,
+                *(whole.widths, (columns.size,), (ends,), whole.cutoff),
+                is_axisymmetric=whole.is_axisymmetric,
+            )
+        line = self._lines[key].copy()
+        line.start = (whole.start[0] + float(columns[0]) * whole.widths[0],)
+        return line

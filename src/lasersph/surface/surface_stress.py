@@ -2,10 +2,11 @@
 
     tangential stress     tau = t . (2 mu D) . n = d gamma/ds             [Demuth2020, eq. (15)]
     shear rate            du_t/dn = tau/mu - n . dv/ds
-    pressure              p_b = p_e + gamma kappa - 2 mu t . dv/ds
+    pressure              p_b = p_e + gamma kappa - 2 mu grad_s . v
 
-with the recoil of the vapor in p_e, and mu that at the temperature of the surface. What enters is
-smoothed as slope and curvature are.
+with grad_s . v = t . dv/ds, and u_r/r more in a section (r, z), whose rings widen as they go
+outward; with the recoil of the vapor in p_e, and mu that at the temperature of the surface. What
+enters is smoothed as slope and curvature are.
 """
 
 from __future__ import annotations
@@ -30,7 +31,7 @@ def shear_rate(tau: HostArray | float, viscosity: HostArray, across: HostArray) 
 
 
 def normal_stress(viscosity: HostArray, along: HostArray) -> HostArray:
-    """2 mu n . D . n [Pa], from t . dv/ds [1/s]."""
+    """2 mu n . D . n [Pa], from grad_s . v [1/s]."""
     return -2.0 * viscosity * along
 
 
@@ -38,7 +39,7 @@ class StressAlong(NamedTuple):
     """Values along a line (m,), by the names of `loops.surface_values`.
 
     T_line, gradient: temperature [K] and its slope along the surface [K/m]. shear, strain_rate:
-    du_t/dn and du_t/ds [1/s]. p_b: pressure [Pa].
+    du_t/dn and grad_s . v, of a plane du_t/ds [1/s]. p_b: pressure [Pa].
     """
 
     T_line: HostArray
@@ -88,7 +89,7 @@ class SurfaceStress:
         """
         liquid, forcing = self.liquid, self.forcing
 
-        # t . dv/ds and n . dv/ds of the smoothed velocity
+        # grad_s . v and n . dv/ds of the smoothed velocity
         u = line.smooth(velocity[0], ODD_PARITY, 0.0)
         w = line.smooth(velocity[1], EVEN_PARITY, 0.0)
         (slope,) = slopes = line.slopes
@@ -96,12 +97,14 @@ class SurfaceStress:
         u_x, w_x = line.derivative(u, ODD_PARITY), line.derivative(w)
         along = (u_x + slope * w_x) / S**2
         across = (-slope * u_x + w_x) / S**2
+        if line.is_axisymmetric:
+            along = along + u / line.centers()
 
         # temperature of the surface: that of the melt, or a given one
         T = line.smooth(T)
         if (given := forcing.temperature) is not None:
             T = np.full(x.size, given.mean)
-            T = T if given.wave is None else T + given.wave.mean_over(x, *interval)
+            T = T if given.drive is None else T + given.drive.mean_over(x, *interval)
 
         # tau = d gamma/ds
         tau: HostArray | float = 0.0
@@ -112,8 +115,8 @@ class SurfaceStress:
         tension = liquid.material.surface_tension_at(T)
         viscosity = liquid.viscosity * liquid.relative_viscosity_at(T)
         pressure = tension * line.curvature + normal_stress(viscosity, along)
-        if (wave := forcing.pressure) is not None:
-            pressure = pressure + wave.mean_over(x, *interval)
+        if (drive := forcing.pressure) is not None:
+            pressure = pressure + drive.mean_over(x, *interval)
         if forcing.recoil is not None:
             pressure = pressure + forcing.recoil(T)
         found = StressAlong(

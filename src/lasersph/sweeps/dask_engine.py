@@ -47,7 +47,7 @@ class DaskEngine:
 
     Attributes:
         scheduler_file: written by `dask scheduler --scheduler-file`; or
-        address: of the scheduler, "tcp://node1:8786".
+        address: of the scheduler, `tcp://node1:8786`.
         tls: folder with `cert.pem` and `key.pem`, the certificate and key of the cluster; without
             it whoever reaches the scheduler can run programs in your name.
         threads: of each run; None for the processors of a worker over its tasks at a time.

@@ -21,7 +21,8 @@ from lasersph.input.key_units import amount_dimension, suffix, unit_in, unit_of
 from lasersph.input.model import did_you_mean
 from lasersph.input.shown_unit import ShownUnit, units_written
 from lasersph.output.atomic import replace_text
-from lasersph.output.errors import OutputError, clear_errors, install_hint, read_json
+from lasersph.output.errors import OutputError, clear_errors, install_hint
+from lasersph.output.older_results import read_summary
 from lasersph.sweeps.folder import PLAN, RUNS, TABLE, last_events, read_points
 from lasersph.sweeps.points import Value
 
@@ -228,7 +229,7 @@ def _row(path: Path, entry: Mapping[str, Any], event: Mapping[str, Any], before:
     # the folder says whether it is complete, the log why it is not
     summary = folder / "summary.json"
     if summary.exists():
-        return Row(run, "complete", settings, dict(numbers_in(read_json(summary))))
+        return Row(run, "complete", settings, dict(numbers_in(read_summary(folder))))
     if event.get("event") in ("failed", "wrong"):
         return Row(run, event["event"], settings, reason=event["message"])
     is_begun = (folder / "resolved.json").exists()

@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from lasersph.output.errors import read_json
+from lasersph.output.older_results import read_summary
 from lasersph.output.study_mark import read_mark
 from lasersph.sweeps import Table
 from lasersph.sweeps.table import Row, numbers_in
@@ -76,7 +77,7 @@ def study_table(folder: Path, before: Table | None = None) -> Table:
         if old is not None and old.status == "complete":
             rows.append(Row(run.name, "complete", settings, old.numbers))
         elif summary.exists():
-            numbers = dict(numbers_in(read_json(summary)))
+            numbers = dict(numbers_in(read_summary(run)))
             rows.append(Row(run.name, "complete", settings, numbers))
         else:
             rows.append(Row(run.name, "stopped", settings))

@@ -51,9 +51,10 @@ export class TimeAxis {
     return this.isCut ? "time without the pauses between pulses" : "time";
   }
 
-  /** First and last place. */
+  /** First and last place; of a train as far as it is computed, since its first pulse is a stroke beside the pauses to come. */
   ends() {
-    return [0, this.isCut ? this.placeOf(this.pieces.at(-1).last) : this.end];
+    const last = this.pieces.at(-1)?.last;
+    return [0, last > 0 && (this.isCut || this.pulses.length > 1) ? this.placeOf(last) : this.end];
   }
 
   placeOf(time) {

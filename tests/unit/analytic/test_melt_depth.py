@@ -29,7 +29,7 @@ def metal(Ts, Tl, Tv, Lf, Lv, density, c, k, alpha, reflectivity):
 STEEL = metal(1673, 1727, 3273, 251e3, 6500e3, 7262, 704, 26.8, 9.56e7, 0.556)
 ALUMINIUM = metal(
     933.35, 933.35, 2792, 397e3, 10860e3, 2228, 1077, 137.97, 1.52e8,
-    lambda T: np.where(T < 933.35, 1.048 - 3.989e-4 * T, 0.65),
+    lambda T, begin, end: np.where(T < 933.35, 1.048 - 3.989e-4 * T, 0.65),
 )  # fmt: skip
 
 

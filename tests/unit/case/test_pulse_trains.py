@@ -72,7 +72,7 @@ def test_wave_below_a_pool():
     """Amplitude and period belong together; the finest layers must hold the hollow."""
     wave = "solver.flow.initial_surface={ amplitude = '50 nm', period = '5.05 um' }"
     start = load_case("texture-steel", [wave]).initial_surface
-    assert start is not None and start.extent == 5e-8
+    assert start is not None and start.depth == 5e-8
     with pytest.raises(CaseError, match=r"larger particles\.fine_depth"):
         load_case("texture-steel", [wave, "particles.fine_depth=90nm"])
     with pytest.raises(CaseError, match='period = "5 um"'):

@@ -9,7 +9,7 @@ import pytest
 
 from lasersph.case import load_case
 from lasersph.input import CaseError
-from lasersph.materials import load_material
+from lasersph.materials import check_material, load_material
 
 R = 8.314462618
 
@@ -44,8 +44,22 @@ def test_slope_changes_sign_where_sulfur_has_left():
         slope = steel(sulfur).surface_tension_slope_at(T)
         assert slope[0] > 0.0 > slope[-1]
         turning.append(float(T[np.argmax(slope < 0.0)]))
+        assert steel(sulfur).slope_reversal(3000.0) == pytest.approx(turning[-1], abs=1.0)
     assert turning == pytest.approx([1860.0, 1966.0, 2152.0], abs=1.5)
     assert np.all(steel(0.0).surface_tension_slope_at(T) < 0.0)
+    assert steel(0.0).slope_reversal(3000.0) is None
+    assert load_material("steel-304-demuth").slope_reversal(3000.0) is None
+
+
+def test_316l_has_the_sulfur_of_the_reference_sample():
+    """20 ppm of NIST SRM 1155a, by the key alone; `check` does not warn of its slope."""
+    metal = load_material("steel-316l")
+    assert metal.sulfur == pytest.approx(2e-5)
+    assert metal.slope_reversal(3000.0) == pytest.approx(1734.0, abs=1.0)
+    clean = metal.model_copy(update={"sulfur": 0.0})
+    assert clean.slope_reversal(3000.0) is None
+    slopes = [one for one in check_material(metal) if one.subject == "surface_tension_slope"]
+    assert [one.level for one in slopes] == ["ok"]
 
 
 @pytest.mark.parametrize("percent", [0.001, 0.01, 0.1])

@@ -159,11 +159,18 @@ def test_vaporization_times_and_depth(views):
 
 
 def test_evaporated_thickness(views):
-    """The largest thickness that evaporated from a surface cell."""
+    """The largest thickness that evaporated from a surface cell, and the mean over the surface: in
+    a section (r, z) over rings, whose outer ones are larger."""
     observer = Vaporization()
     thickness = np.linspace(0.0, 3e-9, views[0].surface.size)
     row = observer.observe(replace(views[0], evaporated=thickness))
     assert row["evaporated_max_m"] == 3e-9
+    assert row["evaporated_mean_m"] == pytest.approx(1.5e-9)
+    rings = np.arange(thickness.size) + 0.5
+    share = rings / rings.sum()
+    row = observer.observe(replace(views[0], evaporated=thickness, column_share=share))
+    assert row["evaporated_mean_m"] == pytest.approx(float(share @ thickness))
+    assert row["evaporated_mean_m"] > 1.9e-9
     assert observer.summary()["vaporization"]["evaporated_thickness_max_m"] == 3e-9
 
 

@@ -9,7 +9,12 @@ import numpy as np
 import pytest
 
 from lasersph.observers.relief import Relief
-from lasersph.observers.topography import Topography, first_harmonic, profile_parameters
+from lasersph.observers.topography import (
+    Topography,
+    first_harmonic,
+    profile_parameters,
+    shape_of_spot,
+)
 
 PERIOD = 5e-6
 A = 50e-9
@@ -94,6 +99,49 @@ def test_observer():
     plain = Topography()
     plain.observe(Seen(relief))
     assert "first_harmonic_m" not in plain.summary()["topography"]
+
+
+def test_volumes_of_rings():
+    """A bowl -a (1 - (r/R)^2) over the whole radius has the volume pi a R^2 / 2 of the paraboloid,
+    in a plane half a width of 2/3 a R, in both halves twice that; the mirrored end has -a."""
+    x = columns(PERIOD, 400)
+    height = -A * (1.0 - (x / PERIOD) ** 2)
+    ring = Relief(x, height, is_section=True)
+    assert np.sum(ring.area) == pytest.approx(pi * PERIOD**2, rel=1e-12, abs=0.0)
+    assert ring.volumes() == (pytest.approx(0.5 * pi * A * PERIOD**2, rel=1e-5, abs=0.0), 0.0)
+    assert ring.center == pytest.approx(-A, rel=1e-12, abs=0.0)
+    both = Relief(x, -height, mirror_images=2)
+    assert both.volumes() == (0.0, pytest.approx(4.0 / 3.0 * A * PERIOD, rel=1e-5, abs=0.0))
+    row = Topography(is_section=True).observe(Seen(ring))
+    assert row["topography.center_m"] == ring.center
+    assert row["topography.displaced_volume_m3"] == ring.volumes()[0]
+
+
+@pytest.mark.parametrize("count", [99, 100])
+def test_height_in_the_middle_of_a_plane_relief(count):
+    """A cubic is met exactly, whether a column or a face lies at x = 0."""
+    x = columns(PERIOD, count) - 0.5 * PERIOD
+    relief = Relief(x, A * (1.0 + x / PERIOD + (x / PERIOD) ** 3), "periodic")
+    assert relief.center == pytest.approx(A, rel=1e-12, abs=0.0)
+
+
+def test_shapes_of_a_spot():
+    """A dimple with its rim, a bump with the moat that it leaves, a bump within a rim, a plane."""
+    r = columns(PERIOD, 100) / PERIOD
+    peak = np.exp(-((r / 0.2) ** 2))
+    ring = np.exp(-(((r - 0.6) / 0.1) ** 2))
+    shapes = {
+        "bowl": 0.3 * ring - peak,
+        "bump": peak - 0.2 * ring,
+        "sombrero": 0.4 * peak - 0.5 * np.exp(-(((r - 0.35) / 0.1) ** 2)) + ring,
+        "flat": 0.0 * r,
+    }
+    for shape, height in shapes.items():
+        relief = Relief(r * PERIOD, A * height, is_section=True)
+        assert shape_of_spot(relief) == shape
+        observer = Topography(is_section=True)
+        observer.observe(Seen(relief))
+        assert observer.summary()["topography"]["shape"] == shape
 
 
 def test_refusals():

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from synthetic_flow import box_view
 
+from lasersph.observers.view import of_whole
 from lasersph.observers.wall_exchange import EVERY, WallExchange, rates
 
 SIZE = 1e-3
@@ -114,3 +115,24 @@ def test_rates():
     start, end = {"time": 1.0, "heat": 3.0}, {"time": 3.0, "heat": 7.0}
     assert rates(start, end)["heat"] == 2.0
     assert rates(end, end)["heat"] == 0.0
+
+
+def test_half_a_box_gives_heat_through_level_sides_of_the_whole():
+    """Heat through bottom and surface doubles, that of an upright side and the fluxes stay."""
+    heat = {"left": 0.0, "right": 3.0, "bottom": 5.0, "surface": -8.0}
+    observers = WallExchange(), WallExchange()
+    rows = []
+    for observer, images in zip(observers, (1, 2), strict=True):
+        for k, time in enumerate((0.0, 1e-5, 2e-5)):
+            seen = box_view(time=time, step=k * EVERY)
+            entered = {side: 1e5 * time * value for side, value in heat.items()}
+            view = replace(seen, flow=replace(seen.flow, wall_heat=entered))
+            row = observer.observe(of_whole(view, images))
+        rows.append(row)
+    half, whole = rows
+    assert whole["box_heat_bottom_J"] == 2.0 * half["box_heat_bottom_J"]
+    assert whole["box_heat_surface_J"] == 2.0 * half["box_heat_surface_J"]
+    assert whole["box_heat_right_J"] == half["box_heat_right_J"]
+    fluxes = [observer.summary()["box"]["heat"] for observer in observers]
+    for side in heat:
+        assert fluxes[1][f"flux_{side}_W_m2"] == pytest.approx(fluxes[0][f"flux_{side}_W_m2"])

@@ -81,8 +81,8 @@ def test_files_of_a_complete_run(tmp_path):
     toy_run(tmp_path / "run")
     run = open_run(tmp_path / "run")
     assert run.is_complete
-    assert run.summary["schema_version"] == 1
-    assert run.resolved["schema_version"] == 1
+    assert run.summary["schema_version"] == 2
+    assert run.resolved["schema_version"] == 2
     assert run.case == {"spacing": 8e-9}
     assert run.case_text == CASE.case_text
     assert run.history["time_s"].shape == (40,)

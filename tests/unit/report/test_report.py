@@ -21,7 +21,7 @@ from lasersph.output.frame_blocks import particle_index
 from lasersph.report import scene, write_report
 from lasersph.report.headline import error_of, large_numbers, light_text, what_was_computed
 from lasersph.report.summary_text import note_texts, verdict, warning_texts
-from lasersph.report.tables import entry, main_rows, summary_rows, with_error
+from lasersph.report.tables import entry, main_rows, place_text, summary_rows, with_error
 from lasersph.report.uncertainty_tables import two_digits
 from lasersph.report.write import command_of, report_page
 
@@ -229,7 +229,7 @@ def test_end_of_the_run_is_no_end_of_the_melt(folder):
         ("Inconel 718, temperature-dependent", "Inconel 718"),
         ("AISI 304 stainless steel", "AISI 304 stainless steel"),
         ("Pure copper, temperature-dependent", "pure copper"),
-        ("High-purity aluminium (Demuth & Lasagni 2020, Table 3)", "high-purity aluminium"),
+        ("High-purity aluminum (Demuth & Lasagni 2020, Table 3)", "high-purity aluminum"),
     ],
 )
 def test_names_of_metals_inside_a_sentence(folder, title, name):
@@ -358,17 +358,28 @@ def test_notes(folder):
     notes = note_texts(summary)
     assert any("8 nm was rounded to 8.0128 nm" in text for text in notes)
     assert any("still fluid" in text for text in warning_texts(summary, []))
-    assert any("energies are those of this half" in text for text in notes)
-    whole = summary | {"surface": summary["surface"] | {"symmetry_factor": 1}}
-    assert not any("of the half" in text for text in note_texts(whole))
+    assert any("Only half of what is symmetric was computed" in text for text in notes)
+    quarter = note_texts(summary | {"mirror_images": 4})
+    assert any("Only a quarter of what is symmetric was computed" in text for text in quarter)
+    assert not any("was computed" in text for text in note_texts(summary | {"mirror_images": 1}))
 
 
-def test_terminal_says_of_what_half_its_energies_are(folder):
+def test_terminal_says_that_particles_are_of_a_part(folder):
     """Beside the number of particles; a whole domain says nothing."""
     summary = open_run(folder).summary
-    assert "as are volumes and energies" in dict(summary_rows(summary))["particles"]
-    whole = summary | {"surface": summary["surface"] | {"symmetry_factor": 1}}
+    assert dict(summary_rows(summary))["particles"].endswith(" in one half")
+    quarter = summary | {"mirror_images": 4}
+    assert dict(summary_rows(quarter))["particles"].endswith(" in one quarter")
+    whole = summary | {"mirror_images": 1}
     assert dict(summary_rows(whole))["particles"] == str(summary["particles"])
+
+
+def test_places_of_a_section_are_radii():
+    """A place along the first axis is r there; in a plane run it is x."""
+    summary = {"flow": {"surface_speed_max_x_m": 3e-9}, "dimensions": 2}
+    key = "flow.surface_speed_max_x_m"
+    assert place_text(summary, key) == "x = 3 nm"
+    assert place_text(summary | {"amount_dimensions": 3}, key) == "r = 3 nm"
 
 
 def test_errors_stand_in_the_unit_of_the_value():

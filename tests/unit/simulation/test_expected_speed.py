@@ -23,9 +23,10 @@ COMPUTED = {
     ("dlip-aluminium", "1.2 J/cm^2"): 20.20,
     ("texture-steel", ""): 22.31,  # lasersph run texture-steel: largest speed at the surface
     ("texture-aluminium", ""): 29.46,  # the same with particles.spacing=32nm
-    ("spot-steel", ""): 2.301,  # docs/validation/spot-pool.json
+    ("spot-steel", ""): 11.1,  # lasersph run spot-steel: largest speed at the surface
     ("spot-weld", ""): 3.5,  # lasersph run spot-weld: largest speed at the surface
     ("moving-film", ""): 1.146,  # lasersph run moving-film --quick
+    ("spot-film", ""): 0.48,  # lasersph run spot-film
     ("natural-convection", ""): 0.2977,  # lasersph run natural-convection --quick: any particle
     ("marangoni-layer", ""): 0.01445,  # docs/validation/marangoni-layer.json
     ("lid-driven-cavity", ""): 1.0,  # of the lid

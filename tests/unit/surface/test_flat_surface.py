@@ -1,13 +1,14 @@
 """The flat surface: which particles lie at it, and the stress of surface tension by hand."""
 
-from math import cos, pi, sin
+from math import cos, exp, pi, sin
 
 import numpy as np
 import pytest
 from flow_boxes import MATERIAL, block_of, box, box_case, place_of
 
 from lasersph.surface.flat_surface import (
-    imposed_temperature,
+    imposed_bump,
+    imposed_wave,
     mark_surface,
     surface_tension_table,
     velocity_jump,
@@ -100,7 +101,7 @@ def test_without_marangoni():
 
 def test_imposed_wave():
     """mean + amplitude cos(k x), whatever the particles' own temperature."""
-    found = imposed_temperature(np.array([0.25, -3.0]), ALONG, 300.0, 2.0, pi)
+    found = imposed_wave(np.array([0.25, -3.0]), ALONG, 300.0, 2.0, pi)
     assert found == 300.0 + 2.0 * cos(0.25 * pi)
     wave = {"amplitude": 2.0, "period": 1.0}
     heat = {"surface": "fixed-temperature", "surface_temperature": 300.0,
@@ -110,6 +111,20 @@ def test_imposed_wave():
     assert host(surface, "temperature")[:20] == pytest.approx(300.0 + 2.0 * np.cos(2.0 * pi * x))
     expected = -4.0 * pi * np.array([sin(2.0 * pi * v) for v in x])
     assert host(surface, "gradient")[:20] == pytest.approx(expected, abs=0.05 * 4.0 * pi)
+
+
+def test_imposed_bump():
+    """mean + amplitude exp(-x^2/R^2) in the middle, whatever the particles' own temperature."""
+    found = imposed_bump(np.array([0.25, -3.0]), ALONG, 300.0, 2.0, 0.5)
+    assert found == 300.0 + 2.0 * exp(-0.25)
+    heat = {"surface": "fixed-temperature", "surface_temperature": 300.0,
+            "surface_temperature_bump": {"amplitude": 2.0, "radius": 0.25}}  # fmt: skip
+    _, surface = surface_box(lambda x: 100.0 * x, heat=heat, cells=20)
+    x = (np.arange(20) + 0.5) / 20 - 0.5
+    bump = 2.0 * np.exp(-((4.0 * x) ** 2))
+    assert host(surface, "temperature")[:20] == pytest.approx(300.0 + bump)
+    slope = host(surface, "gradient")[1:19]
+    assert slope == pytest.approx((-32.0 * x * bump)[1:19], abs=0.5)
 
 
 def test_velocity_jump():

@@ -156,6 +156,17 @@ def test_identities_are_folded():
     assert "sum 3" in page("good", *MANY[:5]).partition("<details>")[0]  # a short table stays open
 
 
+def test_long_tables_show_what_uses_most_of_its_tolerance():
+    """Thirty numbers, of which sixteen stay open with the failed one; none is left out."""
+    rows = [Comparison(f"n {k}", "K", band=1.0, name=f"n {k}").row(1.01 + k / 31, 1.0)
+            for k in range(30)]  # fmt: skip
+    opened, _, folded = page("good", *rows, BAD).partition("<details>")
+    assert opened.count("| n ") == 15 and "| n 29 \\[K\\]" in opened and "**FAILED**" in opened
+    assert "<summary>15 more numbers, judged, which use less of their tolerance</summary>" in folded
+    assert folded.count("| n ") == 15 and "| n 0 \\[K\\]" in folded
+    assert "<details>" not in page("good", *rows[:24])
+
+
 def test_no_page_names_a_commit():
     """Readers want a date; the record keeps the commit."""
     assert not any("a1b2c3d" in page(state.name) for state in STATES)

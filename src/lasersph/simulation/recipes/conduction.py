@@ -13,6 +13,7 @@ from lasersph.compute.backend import Backend
 from lasersph.lasers.pulses import PulseTrain
 from lasersph.observers import Observers, heat_observers
 from lasersph.observers.view import View
+from lasersph.particles.filling import Filling
 from lasersph.simulation.recipes.recipe import Recipe, RunStage, SolverT, StepForecast
 from lasersph.solvers.conduction.body import assemble
 from lasersph.solvers.conduction.settings import ConductionSettings
@@ -95,13 +96,18 @@ class HeatRecipe(Recipe[HeatT, SolverT]):
         vapor = self.case.material.vaporization
         return vapor.critical_temperature if vapor and self.settings.has_vapor_flux else None
 
-    def evaporated(self, solver: Any) -> np.ndarray | None:
-        """Thickness that has evaporated from each column [m], where it is followed."""
+    def evaporated(self, solver: Any) -> dict[str, Any]:
+        """Fields of `View` of what has evaporated: thickness of each column [m], and its share of
+        the surface; empty where it is not followed."""
         if not self.settings.evaporates:
-            return None
-        columns = solver.body.filling.surface
+            return {}
+        filling = solver.body.filling
+        columns = filling.surface
         mass = solver.backend.host_view(solver.particles["evaporated_mass"])[columns]
-        return mass / self.case.material.density_reference
+        return {
+            "evaporated": mass / self.case.material.density_reference,
+            "column_share": shares_of_surface(filling),
+        }
 
     def observers(self, iterations: Sequence[str]) -> Observers:
         """Observers of every run with heat and melting."""
@@ -193,6 +199,12 @@ class HeatRecipe(Recipe[HeatT, SolverT]):
         return StepForecast(limits, (first, resting))
 
 
+def shares_of_surface(filling: Filling) -> np.ndarray:
+    """Share of the surface that each of its particles covers, (columns,); their sum is 1."""
+    area = filling.cross_section[filling.surface]
+    return area / np.sum(area)
+
+
 class ConductionRecipe(HeatRecipe[ConductionSettings, Conduction]):
     """Heat and melting, implicit or explicit."""
 
@@ -202,10 +214,10 @@ class ConductionRecipe(HeatRecipe[ConductionSettings, Conduction]):
         """The solver with its particles, at the start of the run."""
         return self.build_heat(backend, self.settings, recedes=self.settings.has_vapor_flux)
 
-    def view(self, solver: Conduction, step: int, limit: str) -> View:
+    def computed_view(self, solver: Conduction, step: int, limit: str) -> View:
         """The state for observers."""
         fields = self.heat_view(solver, step, limit, solver.backend.host_view)
-        return View(**fields, evaporated=self.evaporated(solver))
+        return View(**fields, **self.evaporated(solver))
 
     def step_forecast(self) -> StepForecast:
         """Limits, number and cost of the steps."""

@@ -19,12 +19,12 @@ from lasersph.compute.backend import Backend
 from lasersph.materials.caloric_curve import CaloricCurve
 from lasersph.observers import Observers
 from lasersph.observers.pulses import Pulses
-from lasersph.observers.view import View
+from lasersph.observers.view import View, of_whole
 from lasersph.particles.layers import Layers
 from lasersph.simulation.heating import estimate_with_vapor
 from lasersph.simulation.layers import caloric_curve, expected_melt, lay_out
 from lasersph.simulation.scales import heat_scales
-from lasersph.simulation.spot_edges import halves_spot
+from lasersph.simulation.spot_edges import halves_spot, mirror_images
 from lasersph.solvers.solver_settings import SolverSettings
 from lasersph.solvers.step_control import Solver, name_of_longest
 
@@ -106,6 +106,11 @@ class Recipe(ABC, Generic[SettingsT, SolverT]):
         spot moves along the surface."""
         return estimate_with_vapor(self.case, self.melt)
 
+    @cached_property
+    def mirror_images(self) -> int:
+        """How many times the computed part makes up the whole."""
+        return mirror_images(self.case)
+
     @property
     def flow(self) -> FlowForecast | None:
         """Forecast of a flow; None where nothing flows."""
@@ -120,9 +125,13 @@ class Recipe(ABC, Generic[SettingsT, SolverT]):
     def build(self, backend: Backend) -> SolverT:
         """The solver with its particles, at the start of the run."""
 
-    @abstractmethod
     def view(self, solver: SolverT, step: int, limit: str) -> View:
-        """The state for observers; the solver stays as it is."""
+        """The state for observers, with amounts of the whole; the solver stays as it is."""
+        return of_whole(self.computed_view(solver, step, limit), self.mirror_images)
+
+    @abstractmethod
+    def computed_view(self, solver: SolverT, step: int, limit: str) -> View:
+        """The state for observers, with amounts of the part that is computed."""
 
     @abstractmethod
     def observers(self, iterations: Sequence[str]) -> Observers:
@@ -149,6 +158,14 @@ class Recipe(ABC, Generic[SettingsT, SolverT]):
     def dimensionless(self) -> dict[str, dict[str, float]]:
         """Scales and dimensionless numbers of the summary."""
         return heat_scales(self.case)
+
+    def amounts(self) -> dict[str, int]:
+        """Entries of the summary that say what volumes and energies cover."""
+        return {
+            "dimensions": self.case.solver.dimensions,
+            "amount_dimensions": self.case.geometry.amount_dimension,
+            "mirror_images": self.mirror_images,
+        }
 
     def summary(self) -> dict[str, Any]:
         """Further sections of the summary: the fluence of a pulse where it is computed."""

@@ -14,7 +14,7 @@ from lasersph.physics.knudsen_layer import outflow_tables
 from lasersph.physics.losses import evaporation_loss, surface_loss
 from lasersph.solvers.conduction.body import Body
 from lasersph.solvers.step_control import StepFailed
-from lasersph.surface.columns import SurfaceColumns
+from lasersph.surface.columns import OwnColumns, SurfaceColumns
 
 
 def surface_power(T, area, surroundings):
@@ -59,9 +59,7 @@ class SurfaceExchange:
         self.power, self.slope, self.mass_flux = (backend.zeros(count) for _ in range(3))
         self._lattice = backend.asarray(body.filling.surface, "index"), body.area
         self.rows, self.area = self._lattice
-        # and those of coarse columns, which rest
-        self._beside = body.filling.surface[body.filling.fine_surface :]
-        self._columns: SurfaceColumns | None = None
+        self._columns: SurfaceColumns | OwnColumns | None = None
 
         # what losses depend on: surroundings, and the vapor's curves where it evaporates
         self._tables = {"surroundings": backend.asarray(body.surroundings.table)}
@@ -79,9 +77,8 @@ class SurfaceExchange:
         self._set_surface(*self._lattice)
         self._columns = None
 
-    def use_columns(self, columns: SurfaceColumns, rows: Rows) -> None:
+    def use_columns(self, columns: SurfaceColumns | OwnColumns, rows: Rows) -> None:
         """Let the surface be that of the particles `rows` that lie at it now (2-D)."""
-        columns.keep(self._beside, self._lattice[1])
         self._set_surface(rows, columns.area)
         self._columns = columns
 

@@ -15,7 +15,7 @@ from lasersph.solvers.melt_pool.block import Block
 from lasersph.solvers.melt_pool.block_layers import SKIN, StaticParticleData
 from lasersph.solvers.melt_pool.face_conditions import FaceConditions
 from lasersph.solvers.melt_pool.particle_kinds import ParticleKinds
-from lasersph.solvers.melt_pool.ring_block import RingBlock
+from lasersph.solvers.melt_pool.ring_block import RingBlock, RingTangentBlock
 from lasersph.solvers.melt_pool.tangent_block import TangentBlock
 from lasersph.solvers.step_control import StepFailed
 from lasersph.surface.surface import Surface
@@ -29,7 +29,8 @@ MELT_MARGIN = 2.0
 """Depth of the rows below the deepest melt, in support radii. Geometry: edge and dummy particles
 lie within the first and second below the melt."""
 BLOCKS = {MIRROR: Block, TANGENT: TangentBlock}
-"""Blocks by how ghosts lie beyond the surface."""
+RING_BLOCKS: dict[str, type[Block]] = {MIRROR: RingBlock, TANGENT: RingTangentBlock}
+"""Blocks by how ghosts lie beyond the surface, of a plane and of a section (r, z)."""
 
 
 class PoolTooDeep(StepFailed):
@@ -90,9 +91,8 @@ class PoolDomain:
         self._bottom = np.cumsum(layers.thickness)
         self.fine_depth = layers.fine_depth
         self._starts = np.concatenate([[0], np.cumsum(np.prod(layers.columns, axis=0))])
-        self._block_type = BLOCKS[surface.crossing]
-        if lattice.geometry.is_axisymmetric:
-            self._block_type = RingBlock
+        blocks = RING_BLOCKS if lattice.geometry.is_axisymmetric else BLOCKS
+        self._block_type = blocks[surface.crossing]
         self.block_layers = 0
         self._block: Block | None = None
 

@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 from lasersph.boundaries import Boundaries
 from lasersph.boundaries.flow_conditions import FREE, WALLS, FlowConditions
 from lasersph.boundaries.settings import DIRICHLET, NEUMANN
-from lasersph.particles.faces import BOTTOM, SURFACE, VERTICAL, face_pairs
+from lasersph.particles.faces import BOTTOM, LEFT, SURFACE, VERTICAL, face_pairs
 from lasersph.particles.ghosts import (
     LOWER,
     MIRROR,
@@ -106,6 +106,7 @@ class FaceConditions:
     Args:
         box: lower and upper end of each axis, z last [m]. flow: None for a pool in a block: its
             lateral faces mirror or repeat as the heat does, its surface is free, its bottom rests.
+            has_axis: whether the left face is the axis of a section (r, z).
 
     Attributes:
         faces: names of the lower and the upper face of each axis. periods: width along each axis
@@ -119,8 +120,10 @@ class FaceConditions:
         boundaries: Boundaries,
         flow: FlowConditions | None,
         initial_temperature: float,
+        *,
+        has_axis: bool = False,
     ) -> None:
-        self.box, self.boundaries, self.flow = box, boundaries, flow
+        self.box, self.boundaries, self.flow, self.has_axis = box, boundaries, flow, has_axis
         self.faces = face_pairs(len(box))
         self.periods = tuple(
             high - low if self.flow_kind(lower) == "periodic" else 0.0
@@ -131,6 +134,8 @@ class FaceConditions:
 
     def flow_kind(self, face: str) -> str:
         """Kind of a face for the flow."""
+        if face == LEFT and self.has_axis:
+            return "symmetry"
         if self.flow is not None:
             return self.flow.faces[face].kind
         if face == SURFACE:
@@ -196,8 +201,8 @@ class FaceConditions:
             rules.wall_temperature[mine] = self.boundaries.temperature_of(
                 face, self.initial_temperature
             )
-            wave = self.boundaries.surface_temperature_wave
-            rules.varies[mine] = face == SURFACE and wave is not None
+            drive = self.boundaries.temperature_drive
+            rules.varies[mine] = face == SURFACE and drive is not None
         elif kind == NEUMANN:
             mine = types & (rules.heat_face == 0.0)
             rules.flux[mine] = self.boundaries.flux_of(face)

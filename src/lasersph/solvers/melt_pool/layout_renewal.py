@@ -56,6 +56,9 @@ class LayoutRenewal:
         self._cell = domain.width / columns * float(thickness[0])
         fine = int(np.count_nonzero(thickness <= thickness[0] * (1.0 + 1e-9))) * columns
         self._fine_volume = body.backend.head(body.particles["volume"], fine)
+        # of rings their lengths, else 1
+        lattice = domain.lattice
+        self._measure = lattice.geometry.measure(lattice.position[:, :fine])
 
     def checkpoint_scalars(self) -> dict[str, float]:
         """Numbers that survive a step."""
@@ -80,7 +83,7 @@ class LayoutRenewal:
         surface.reset()
 
         # mass of the cold metal in the new volumes
-        mass = self.body.material.density_reference * layout.volume
+        mass = self.body.material.density_reference * self._measure * layout.volume
         self._place({"position": layout.position, "volume": layout.volume, "mass": mass})
 
     def follow_recession(self) -> None:
@@ -102,14 +105,15 @@ class LayoutRenewal:
         # even columns again, which take over h, p and v of what was there
         layout, volume = self._layout(), self._fine("volume")
         carried = [self._fine(name) for name in ("enthalpy", "pressure", "velocity")]
-        density = np.sum(self._fine("mass")) / np.sum(volume)
+        density = np.sum(self._fine("mass")) / np.sum(self._measure * volume)
         place = self._fine("position")
         volume, (h, p, *v) = carry_over(
             self.domain.layers, layout, place, volume, np.vstack(carried)
         )
 
         # the same mass and heat as before, without a past that a step could extrapolate
-        new = {"position": layout.position, "volume": volume, "mass": density * volume}
+        new = {"position": layout.position, "volume": volume}
+        new |= {"mass": density * self._measure * volume}
         new |= {"pressure": p, "velocity": np.array(v)} | {name: h for name in HISTORY}
         self._place(new | {"enthalpy_excess": 0.0 * h})
 

@@ -1,7 +1,8 @@
-"""`RingBlock`: a block of rings that stay where they are, in a section (r, z).
+"""Blocks of rings, in a section (r, z): pairs weigh as those of rings, none across the axis.
 
-Pairs weigh as those of rings. Positions never change, and so no pair does: what has been found once
-holds, and only rows that the melt comes near to for the first time are found anew.
+Below a flat surface particles stay where they are: positions never change, and so no pair does.
+What has been found once holds, and only rows that the melt comes near to for the first time are
+found anew. Below a surface that moves they ride with it, and pairs are found in every step.
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ import numpy as np
 from lasersph.compute.array_types import Array
 from lasersph.solvers.melt_pool.block import Block
 from lasersph.solvers.melt_pool.block_terms import either
+from lasersph.solvers.melt_pool.tangent_block import TangentBlock
 from lasersph.sph.rings import ring_weight_off_axis
 
 
@@ -21,45 +23,78 @@ def join_new(found, near):
     return either(found, near), near - found * near
 
 
-class RingBlock(Block):
-    """A block whose particles are rings.
+class Rings(Block):
+    """Particles that are rings.
 
     Attributes:
-        found: (count,) 1 for rows whose pairs are known. body_volume: (count,) of the rings [m^3].
-            measure: (M,) their lengths, and of ghosts [m].
+        measure: (M,) 2 pi r of rings, and of ghosts that of their sources [m]. tangents: (M,) 1 for
+            the ghost of a particle across the tangent of a surface that moves, 2 for that of its
+            image beyond a side, 0 for all others.
     """
 
     def __init__(self, *args: Any, **options: Any) -> None:
         super().__init__(*args, **options)
-        geometry, position = self.lattice.geometry, self.lattice.position[:, : self.count]
-        lengths = geometry.measure(position)
-        self._lengths = self.measure = self.backend.asarray(lengths)
-        self.body_volume = self.backend.asarray(lengths * self.lattice.volume[: self.count])
+        position = self.lattice.position[:, : self.count]
+        self._lengths = self.backend.asarray(self.lattice.geometry.measure(position))
         self._radius = self.backend.asarray(np.ascontiguousarray(position[0]))
-        self.found = self.backend.zeros(self.count)
-        self._radii = self._radius
+        types = self.ghosts.particles.ghost_types
+        beside = np.any(types.crossed[:-1] != 0, axis=0)
+        self._tangents = self.ghosts.particles.table(types.crosses_surface * (1.0 + beside))
+        self.measure = self._radii = self.tangents = self._lengths
 
     @property
     def ring_fields(self) -> dict[str, Array]:
         """Distances from the axis of rings and ghosts [m], those of their sources."""
         return {"r": self._radii}
 
-    def find_new_pairs(self, position: Array, near: Array) -> bool:
-        """Find pairs where `near` (count,) marks rows that have none; whether there were any."""
-        # rows with pairs, and those that have come to them
-        fields = {"found": self.found, "near": near}
-        (new,) = self.backend.pointwise(join_new, fields, (self.found, None), reduce=(None, "sum"))
-        if new == 0.0:
-            return False
-        self.find_pairs(position, self.found, has_kernel=True)
-        self._radii = self.gather(self._radius)
-        self.correct_kernel(self.backend.rows_where(self.found, 1.0))
-        return True
-
     def _adapt_weights(self, position: Array) -> None:
         """Weights of rings: those of the plane times their mean length, none across the axis."""
-        self.measure = self.gather(self._lengths)
+        super()._adapt_weights(position)
+        self.measure, self._radii = self.gather(self._lengths), self.gather(self._radius)
+        self.tangents = self.ghosts.of_type(self._tangents)
         fields = {"g_ij": self.weights, "measure": self.measure}
         self.backend.pair_values(
             ring_weight_off_axis, self.pairs, fields, self.weights, rows=self.rows
         )
+
+
+class RingBlock(Rings):
+    """Rings below a flat surface, which rest.
+
+    Attributes:
+        found: (count,) 1 for rows whose pairs are known.
+    """
+
+    def __init__(self, *args: Any, **options: Any) -> None:
+        super().__init__(*args, **options)
+        self.found = self.backend.zeros(self.count)
+
+    def renew_pairs(self, position: Array, near: Array | None) -> None:
+        """Find pairs where `near` (count,) marks rows that have none; None for all."""
+        near = self.ghosts.particles.all_rows if near is None else near
+        # rows with pairs, and those that have come to them
+        fields = {"found": self.found, "near": near}
+        (new,) = self.backend.pointwise(join_new, fields, (self.found, None), reduce=(None, "sum"))
+        if new == 0.0:
+            return
+        self.find_pairs(position, self.found, has_kernel=True)
+        self.correct_kernel(self.backend.rows_where(self.found, 1.0))
+
+
+class RingTangentBlock(Rings, TangentBlock):
+    """Rings below a surface that moves, which ride with it."""
+
+    def surface_area(self) -> float:
+        """True area of the surface [m^2]."""
+        low, high = self.conditions.box[0]
+        length_ratio = self.surface.length_ratio()
+        assert length_ratio is not None
+        ratio = self.backend.to_host(length_ratio)
+        ring = self.backend.to_host(self._lengths)[: ratio.size]
+        return (high - low) * float(np.mean(ratio * ring))
+
+    def renew_pairs(self, position: Array, near: Array | None) -> None:
+        """Find the pairs of the rows that `near` (count,) marks; None for all."""
+        self.find_pairs(position, near, has_kernel=True)
+        rows = self.ghosts.particles.all_rows if near is None else near
+        self.correct_kernel(self.backend.rows_where(rows, 1.0))

@@ -89,9 +89,13 @@ class TangentBlock(Block):
             return
 
         # flux times the true length over that
+        fields = {"flux": rules["flux"], "across": self.across}
+        factor = self.surface_area() / seen
+        backend.pointwise(scaled_flux, fields, rules["flux"], factor=factor)
+
+    def surface_area(self) -> float:
+        """True length of the surface [m]."""
         low, high = self.conditions.box[0]
         length_ratio = self.surface.length_ratio()
         assert length_ratio is not None
-        length = (high - low) * float(np.mean(backend.to_host(length_ratio)))
-        fields = {"flux": rules["flux"], "across": self.across}
-        backend.pointwise(scaled_flux, fields, rules["flux"], factor=length / seen)
+        return (high - low) * float(np.mean(self.backend.to_host(length_ratio)))

@@ -1,39 +1,85 @@
-"""`Transport`: melt that passes between particles at rest, and what it takes along.
+"""`Transport`: melt that passes between particles that keep their columns, and what it takes along.
 
-    F_ij = 2 pi r_ij A_i (v_i + v_j) . G_ij - g_ij (phi_j - phi_i),    sum_j F_ij = 0
-    V_i da_i/dt = - sum_j F_ij a_ij                                for a = h and v
+    F_ij = 2 pi r_ij A_i (u_i + u_j) . G_ij - g_ij (phi_j - phi_i),    sum_j F_ij = -dV_i/dt - L_i
+    d(V_i a_i)/dt = - sum_j F_ij a_ij - L_i a_i                    for a = h and v
 
-F_ij is the volume that flows from i to j in a second [m^3/s], between melt and melt alone. phi
+with u the velocity of the melt over that of the particles, which ride with the surface where it
+moves and rest elsewhere, V_i their volumes and L_i what leaves through the surface. F_ij is the
+volume that flows from i to j in a second [m^3/s], between melt and melt alone. phi
 makes it free of divergence to the rounding of its solution, so that what is the same everywhere
 stays the same; what one particle gives its neighbor gets. a_ij is the value of the particle from
 which the melt comes, carried on by its gradient to the middle of the pair and of the step, within
 the range of both: of second order where a is smooth, and no new extreme [vanLeer1979]. Particles at
 rest that melt passes through are those of [Lind2016], without its kernels of fourth order.
+
+Beyond a surface that bends the ghosts of i and j are not each other's mirror images. Pairs across
+it pass on the part of the flux along r and that between both distances from the surface, which is
+the flux of a plane and the same from both sides; a_ij is the value of the particle itself there.
 """
 
 from __future__ import annotations
 
-from lasersph.compute.array_types import Array
+from lasersph.compute.array_types import Array, Constants
 from lasersph.compute.graph import graph
 from lasersph.compute.vectors import dot, matmul, matvec, outer, transpose, vector
 from lasersph.particles.particles import Particles
+from lasersph.solvers.melt_pool.block import Block
 from lasersph.solvers.melt_pool.block_terms import weight_of
 from lasersph.solvers.melt_pool.flow import Flow
 from lasersph.solvers.melt_pool.particle_kinds import ParticleKinds
 from lasersph.solvers.melt_pool.particle_shifting import clip_to_range
 from lasersph.solvers.melt_pool.pressure_equation import PressureEquation
-from lasersph.solvers.melt_pool.ring_block import RingBlock
+from lasersph.solvers.melt_pool.ring_block import RingBlock, RingTangentBlock
+from lasersph.surface.riding_surface import Ride
 
 TOLERANCE = 1e-8
 """Residual of the equation of phi over its right-hand side. Accuracy: what a uniform field changes
 by in a step is that share of the divergence that the projection has left."""
 
 
-def pair_flux(v_i, v_j, pool_i, pool_j, V_i, measure_i, measure_j, G_ij, x_j):
-    """Volume that flows from i to j [m^3/s] within a pool, 0 across the axis."""
-    if pool_i == 0 or pool_i != pool_j or x_j[0] <= 0.0:
+def passing_velocity(v, w):
+    """Velocity of the melt over that of its particle [m/s]."""
+    return v - w
+
+
+def pair_flux(
+    v_i,
+    v_j,
+    pool_i,
+    pool_j,
+    V_i,
+    measure_i,
+    measure_j,
+    G_ij,
+    g_ij,
+    x_j,
+    source_i,
+    source_j,
+    tangent_j,
+    u,
+    place,
+    distance,
+):
+    """Volume that flows from i to j [m^3/s] within a pool, 0 across the axis.
+
+    Args:
+        v: of the melt over the particles, as ghosts mirror it [m/s]. tangent: see `RingBlock`. u,
+            place, distance: tables of that velocity, of places and of distances from the surface.
+    """
+    if pool_i == 0 or pool_i != pool_j or x_j[0] <= 0.0 or tangent_j > 1.0:
         return 0.0 * V_i
+    if tangent_j > 0.0:
+        # V_i G_ij = g_ij (x_j - x_i)/2, and what the tangent at one of both turns, mirrored
+        u_i, u_j = u[source_i], u[source_j]
+        along = (u_i[0] + u_j[0]) * (place[source_j][0] - place[source_i][0])
+        across = (u_i[1] - u_j[1]) * (distance[source_i] + distance[source_j])
+        return 0.5 * g_ij * (along + across)
     return 0.5 * (measure_i + measure_j) * V_i * dot(v_i + v_j, G_ij)
+
+
+def gathering(total, growth, measure):
+    """What gathers in a particle beyond what its volume grows by and its surface loses [m^3/s]."""
+    return total + growth * measure
 
 
 def closed_flux(flux_ij, g_ij, pool_i, pool_j, phi_i, phi_j):
@@ -55,9 +101,14 @@ def corrected_slopes(total_0, total_1, C):
 
 
 def exchanged_values(
-    flux_ij, h_i, h_j, v_i, v_j, grad_h_i, grad_h_j, grad_v_i, grad_v_j, x_ij, half_step
+    flux_ij, h_i, h_j, v_i, v_j, grad_h_i, grad_h_j, grad_v_i, grad_v_j, x_ij, tangent_j, half_step
 ):
     """h and v that a pair exchanges, times its flux."""
+    if tangent_j > 0.0:
+        # beyond a surface that bends, the values themselves
+        if flux_ij > 0.0:
+            return flux_ij * h_i, flux_ij * v_i
+        return flux_ij * h_j, flux_ij * v_j
     # from where the melt comes to the middle of the pair, half a step before
     if flux_ij > 0.0:
         displacement = -0.5 * x_ij - half_step * v_i
@@ -70,14 +121,14 @@ def exchanged_values(
     return flux_ij * clip_to_range(h, h_i, h_j, h_j), kept
 
 
-def after_transport(total_0, total_1, h, v, volume, step):
-    """h [J/kg] and v [m/s] after a step."""
-    share = step / volume
-    return h - share * total_0, v - share * total_1
+def after_transport(total_0, total_1, h, v, volume, growth, measure, step):
+    """h [J/kg] and v [m/s] after a step in which a particle has grown to its volume."""
+    share, grown = step / volume, growth * measure
+    return h - share * (total_0 + grown * h), v - share * (total_1 + grown * v)
 
 
 class Transport:
-    """Fluxes of the melt between particles at rest, and the step that follows from them.
+    """Fluxes of the melt between particles of a section, and the step that follows from them.
 
     Args:
         volume: (n,) of the rings [m^3].
@@ -90,25 +141,30 @@ class Transport:
         self.backend, self.volume = particles.backend, volume
         self.h, self.v = particles["enthalpy"], particles["velocity"]
         self.flux = self.backend.zeros(0)
-        self._block: RingBlock | None = None
+        self._block: RingBlock | RingTangentBlock | None = None
+        self._passing = self.backend.zeros(self.v.shape)
 
-    def carry(self, flow: Flow, kinds: ParticleKinds, step: float) -> None:
-        """Enthalpy and velocity after the melt has flowed for a step [s]."""
+    def carry(self, flow: Flow, kinds: ParticleKinds, ride: Ride, step: float) -> None:
+        """Enthalpy and velocity after the melt has flowed for a step [s] between particles that
+        have ridden with the surface."""
         block = flow.block
-        assert isinstance(block, RingBlock)
+        assert isinstance(block, RingBlock | RingTangentBlock)
         self._work_on(block)
+        fields = {"v": self.v, "w": ride.velocity}
+        self.backend.pointwise(passing_velocity, fields, self._passing)
         # pools: melt that nothing separates
         flows = self.backend.head(kinds.fluid, block.count)
-        self._equation.set_operator(block.without_ghosts(), block.weights, flows, block.body_volume)
+        volume = self.backend.head(self.volume, block.count)
+        self._equation.set_operator(block.without_ghosts(), block.weights, flows, volume)
         # F*, phi that closes its balance, F
-        self.find_flux(block)
+        self.find_flux(block, ride.growth)
         self._equation.solve(self._gathered, self._phi)
         self.close_flux(block)
         # slopes of h and v, then what pairs exchange
         self.find_slopes(block, kinds)
-        self.exchange(block, kinds, step, 0.5 * step)
+        self.exchange(block, kinds, ride.growth, step, 0.5 * step)
 
-    def _work_on(self, block: RingBlock) -> None:
+    def _work_on(self, block: RingBlock | RingTangentBlock) -> None:
         """Work vectors for a block and its pairs."""
         backend, count = self.backend, block.count
         if block is not self._block:
@@ -126,36 +182,43 @@ class Transport:
         if self.flux.shape != block.weights.shape:
             self.flux = backend.zeros(block.weights.shape[0])
 
-    def _pair_fields(self, block: RingBlock) -> dict[str, Array]:
+    def _pair_fields(self, block: Block, v: Array) -> dict[str, Array]:
         """Values of particles and their images that a flux follows from."""
         nothing = self.backend.zeros(self.v.shape[1])
         return {
-            "v": block.ghosts.mirror_velocity(self.v, nothing),
+            "v": block.ghosts.mirror_velocity(v, nothing),
             "pool": block.gather(self._equation.components.number),
             "G_ij": block.gradient,
         }
 
     @graph
-    def find_flux(self, block: RingBlock) -> None:
+    def find_flux(self, block: RingBlock | RingTangentBlock, growth: Array) -> None:
         """F* of the pairs, and what would gather in each particle."""
         backend, rows = self.backend, block.rows
-        fields = self._pair_fields(block) | {"V": block.V, "measure": block.measure}
-        backend.pair_values(pair_flux, block.pairs, fields, self.flux, rows=rows)
-        fields = {"g_ij": self.flux}
+        fields = self._pair_fields(block, self._passing) | {"V": block.V, "g_ij": block.weights}
+        fields |= {"measure": block.measure, "tangent": block.tangents}
+        fields |= {"source": block.ghosts.source}
+        tables: Constants = {"u": self._passing, "place": block.ghosts.place}
+        tables |= {"distance": block.ghosts.surface.distance}
+        backend.pair_values(pair_flux, block.pairs, fields, self.flux, rows=rows, **tables)
+        fields = {"g_ij": self.flux, "growth": growth, "measure": block.measure}
         backend.fill(self._phi, 0.0)
-        backend.pair_sum(weight_of, block.pairs, fields, self._gathered, rows=rows)
+        backend.pair_sum(
+            weight_of, block.pairs, fields, self._gathered, rows=rows, finish=gathering
+        )
 
     @graph
-    def close_flux(self, block: RingBlock) -> None:
+    def close_flux(self, block: Block) -> None:
         """F from F* and phi."""
         fields = {"flux_ij": self.flux, "g_ij": block.weights, "phi": block.gather(self._phi)}
         fields["pool"] = block.gather(self._equation.components.number)
         self.backend.pair_values(closed_flux, block.pairs, fields, self.flux, rows=block.rows)
 
     @graph
-    def find_slopes(self, block: RingBlock, kinds: ParticleKinds) -> None:
+    def find_slopes(self, block: Block, kinds: ParticleKinds) -> None:
         """Gradients of enthalpy and velocity of what flows."""
-        fields = self._pair_fields(block) | {"h": block.gather(self.h), "C": block.correction}
+        fields = self._pair_fields(block, self.v)
+        fields |= {"h": block.gather(self.h), "C": block.correction}
         self.backend.pair_sum(
             slope_terms,
             block.pairs,
@@ -167,13 +230,20 @@ class Transport:
 
     @graph
     def exchange(
-        self, block: RingBlock, kinds: ParticleKinds, step: float, half_step: float
+        self,
+        block: RingBlock | RingTangentBlock,
+        kinds: ParticleKinds,
+        growth: Array,
+        step: float,
+        half_step: float,
     ) -> None:
         """h and v after the exchange of the pairs."""
         ghosts = block.ghosts
-        fields = self._pair_fields(block) | {"flux_ij": self.flux, "h": block.gather(self.h)}
+        fields = self._pair_fields(block, self.v)
+        fields |= {"flux_ij": self.flux, "h": block.gather(self.h), "tangent": block.tangents}
         fields |= {"grad_h": ghosts.mirror(self._grad_h)}
         fields |= {"grad_v": ghosts.extend_tensor(self._grad_v), "volume": self.volume}
+        fields |= {"growth": growth, "measure": block.measure}
         self.backend.pair_sum(
             exchanged_values,
             block.pairs,

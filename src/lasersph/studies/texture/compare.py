@@ -5,8 +5,9 @@
 
 Offset and tilts a, b, c, place x_0, y_0, angle phi and lateral scale s are those of the
 measurement. h is our relief, of a texture at f times its local fluence: its cells tell it at any f
-that they cover. Of a run of one cell h repeats, and f is 1. A profile is taken as the line through
-the center of a spot; angle and y_0 are those of maps.
+that they cover. Of a run of one cell h repeats, and f is 1; of a section (r, z) it is round, and
+has no phi. A profile is taken as the line through the center of a spot; angle and y_0 are those of
+maps.
 
 The sum of squares is least over all of them: a, b, c are solved for exactly at each trial of the
 others [Golub1973]. The start is the best of all places on a grid, for which some rows of a map are
@@ -30,15 +31,16 @@ from lasersph.studies.texture.measurement import (
     correlated_points,
     point_noise,
     points_of,
-    refuse_odd,
     rotation_of,
 )
 from lasersph.studies.texture.relief import Relief
+from lasersph.studies.texture.round_relief import RoundRelief
 
 if TYPE_CHECKING:
     from scipy.optimize import OptimizeResult
 
 Array = NDArray[np.float64]
+AnyRelief = Relief | RoundRelief
 SCALE_ERROR = 0.03
 """Standard deviation of the lateral scale of microscopes before they are calibrated, beforehand."""
 STARTS, STARTS_A_PERIOD = 3, 12
@@ -95,7 +97,7 @@ class Comparison:
         return max(value - half, least), min(value + half, most)
 
 
-def compare(relief: Relief, surface: HeightMap, scale_error: float = SCALE_ERROR) -> Comparison:
+def compare(relief: AnyRelief, surface: HeightMap, scale_error: float = SCALE_ERROR) -> Comparison:
     """Align a measured profile or map with our relief.
 
     Args:
@@ -105,7 +107,7 @@ def compare(relief: Relief, surface: HeightMap, scale_error: float = SCALE_ERROR
         NoComparison: it is shorter than a period, too coarse for one, too flat to align, or its
             unit can't be right.
     """
-    refuse_odd(surface, relief.table.period)
+    relief.refuse(surface)
     # start with few points, then least squares with all
     few = _Alignment.of(relief, surface, scale_error, START_POINTS)
     unknowns = min((few.least(one) for one in few.starts()), key=lambda found: found.cost).x
@@ -123,7 +125,7 @@ class _Alignment:
         noise: of a point [m]. names: of the unknowns. basis: (n, 2 or 3) level and tilts.
     """
 
-    relief: Relief
+    relief: AnyRelief
     surface: HeightMap
     scale_error: float
     most: int
@@ -135,16 +137,20 @@ class _Alignment:
     basis: Array
 
     @classmethod
-    def of(cls, relief: Relief, surface: HeightMap, scale_error: float, most: int) -> Self:
+    def of(cls, relief: AnyRelief, surface: HeightMap, scale_error: float, most: int) -> Self:
         x, y, z = points_of(surface, most)
         is_map = np.ptp(y) > 0.0
         # level and tilts as an orthonormal basis: solved for exactly [Golub1973]
         columns = [np.ones_like(x), x - x.mean()] + ([y - y.mean()] if is_map else [])
         basis = np.linalg.qr(np.stack(columns, axis=1))[0]
         # unknowns that a profile or a map, of lines or of a spot, can tell
-        names = ["shift_x_m", "lateral_scale"] + (["rotation_rad"] if is_map else [])
-        if relief.is_spot:
-            names += ["fluence_factor"] + (["shift_y_m"] if is_map else [])
+        names = ["shift_x_m", "lateral_scale"]
+        knowable = {
+            "rotation_rad": is_map and not relief.is_round,
+            "fluence_factor": relief.tells_fluence,
+            "shift_y_m": is_map and relief.is_spot,
+        }
+        names += [name for name, is_known in knowable.items() if is_known]
         noise = max(point_noise(surface.z), 1e-6 * float(np.std(z - basis @ (basis.T @ z))))
         return cls(relief, surface, scale_error, most, x, y, z, noise, names, basis)
 
@@ -159,7 +165,7 @@ class _Alignment:
 
     def places(self, unknowns: Array) -> tuple[Array, Array]:
         """Our coordinates of the points [m]."""
-        found, period = dict(zip(self.names, unknowns, strict=True)), self.relief.table.period
+        found, period = dict(zip(self.names, unknowns, strict=True)), self.relief.period
         angle, scale = found.get("rotation_rad", 0.0), found["lateral_scale"]
         x, y = self.x - period * found["shift_x_m"], self.y - period * found.get("shift_y_m", 0.0)
         # into the coordinates of the relief: shift, turn, scale
@@ -197,17 +203,19 @@ class _Alignment:
     def starts(self) -> list[Array]:
         """The best places on a grid, with lateral scale 1."""
         # places within reach: one period of lines, or a spot that overlaps the measurement
-        relief, period = self.relief, self.relief.table.period
+        relief, period = self.relief, self.relief.period
         reach = 0.5 * (np.ptp(self.x) + np.ptp(relief.x)) if relief.is_spot else 0.5 * period
         shifts = np.arange(-reach, reach, period / STARTS_A_PERIOD) / period
         left = self.leveled(self.z)
         # the center across the lines: that of the squares of the leveled heights
         across = float(np.sum(self.y * left**2) / np.sum(left**2)) / period
         values = {"lateral_scale": 1.0, "shift_y_m": across}
-        values["rotation_rad"] = rotation_of(self.surface, period, LARGEST_TURN)
+        if "rotation_rad" in self.names:
+            values["rotation_rad"] = rotation_of(self.surface, period, LARGEST_TURN)
 
         # each place and factor, leveled; the best few are followed
-        factors = (relief.largest_factor * k for k in (0.97, 0.8)) if relief.is_spot else (1.0,)
+        factors = [relief.largest_factor * k for k in (0.97, 0.8)]
+        factors = factors if relief.tells_fluence else [1.0]
         found = []
         for factor in factors:
             heights = relief.sampled(factor, period / STARTS_A_PERIOD)
@@ -231,7 +239,7 @@ class _Alignment:
         place = names.index("lateral_scale")
         precision[place, place] += 1.0 / self.scale_error**2
         covariance = np.linalg.pinv(precision, hermitian=True)
-        units = [relief.table.period if name.startswith("shift") else 1.0 for name in names]
+        units = [relief.period if name.startswith("shift") else 1.0 for name in names]
         errors = np.sqrt(np.maximum(np.diag(covariance), 0.0)) * units
         # factor on heights: regression of measured on ours, both leveled
         ours = self.heights(unknowns)

@@ -97,18 +97,20 @@ def rotation_of(surface: HeightMap, period: float, largest: float) -> float:
     return float(np.clip(np.arctan(slope), -largest, largest))
 
 
-def refuse_odd(surface: HeightMap, period: float) -> None:
+def refuse_coarse(surface: HeightMap, length: float, what: str) -> None:
+    """Refuse a measurement in which something of a length [m] cannot be seen. Raises
+    NoComparison."""
     # a sampling that repeats leaves out its last point, that of the next period
     width = float(np.ptp(surface.x)) + surface.steps[0]
-    if width < period * (1.0 - LENGTH_ROUNDING):
+    if width < length * (1.0 - LENGTH_ROUNDING):
         raise NoComparison(
-            f"the measurement is {1e6 * width:.4g} um long, shorter than a period of "
-            f"{1e6 * period:.4g} um: is its unit right?"
+            f"the measurement is {1e6 * width:.4g} um long, shorter than {what} of "
+            f"{1e6 * length:.4g} um: is its unit right?"
         )
-    if surface.steps[0] > period / FEWEST_POINTS:
+    if surface.steps[0] > length / FEWEST_POINTS:
         raise NoComparison(
-            f"points {1e6 * surface.steps[0]:.4g} um apart do not show a period of "
-            f"{1e6 * period:.4g} um: measure {FEWEST_POINTS} or more a period"
+            f"points {1e6 * surface.steps[0]:.4g} um apart do not show {what} of "
+            f"{1e6 * length:.4g} um: measure {FEWEST_POINTS} or more over it"
         )
     rough = float(np.nanmax(surface.z) - np.nanmin(surface.z))
     if rough > width:
@@ -119,6 +121,12 @@ def refuse_odd(surface: HeightMap, period: float) -> None:
     z = surface.z - np.nanmean(surface.z)
     if not np.nanmax(np.abs(z)) > 0.0:
         raise NoComparison("all measured heights are the same")
+
+
+def refuse_odd(surface: HeightMap, period: float) -> None:
+    """Refuse a measurement of other lines than those of a period [m]. Raises NoComparison."""
+    refuse_coarse(surface, period, "a period")
+    width = float(np.ptp(surface.x)) + surface.steps[0]
     # of fewer than three periods the spectrum shows the shape of one, not how they repeat
     measured = dominant_period(surface) if width > FEWEST_PERIODS * period else None
     waves = 1.0 if measured is None else period / measured

@@ -12,9 +12,13 @@ from numpy.typing import NDArray
 
 from lasersph.lasers import InterferenceBeam
 from lasersph.output import OutputError, open_run
+from lasersph.output.height_map import HeightMap
 from lasersph.output.image_file import read_maps
 from lasersph.output.reader import read_json
+from lasersph.output.symmetry import is_axisymmetric
 from lasersph.studies.texture.cells import Cell, read_cell
+from lasersph.studies.texture.measurement import refuse_odd
+from lasersph.studies.texture.round_relief import RoundRelief, round_relief
 from lasersph.studies.texture.table import CellTable
 
 Array = NDArray[np.float64]
@@ -36,6 +40,32 @@ class Relief:
     y: Array
     fluence: Array
     error: float = 0.0
+
+    is_round = False
+
+    @property
+    def period(self) -> float:
+        """Of the lines [m]."""
+        return self.table.period
+
+    @property
+    def tells_fluence(self) -> bool:
+        """Whether its cells tell it at other fluences."""
+        return self.is_spot
+
+    @property
+    def is_flat(self) -> bool:
+        """Whether there is nothing to align to."""
+        return float(np.ptp(self.table.values["height"])) == 0.0
+
+    @property
+    def family(self) -> int:
+        """Number that reliefs which differ in their light alone have in common."""
+        return id(self.table)
+
+    def refuse(self, surface: HeightMap) -> None:
+        """Refuse a measurement of other lines. Raises NoComparison."""
+        refuse_odd(surface, self.period)
 
     @property
     def is_spot(self) -> bool:
@@ -81,8 +111,8 @@ def linear_map(x: Array, y: Array, values: Array) -> Callable[[Array, Array], Ar
     return at
 
 
-def read_relief(folder: Path) -> Relief:
-    """Our relief in the folder of a texture, or of a run of one period.
+def read_relief(folder: Path) -> Relief | RoundRelief:
+    """Our relief in the folder of a texture, or of a run of one period or of a section (r, z).
 
     Raises:
         OutputError: it holds neither.
@@ -99,6 +129,8 @@ def read_relief(folder: Path) -> Relief:
         error = content["interpolation_error"]["height"]["rms"]
         return Relief(folder.name, table, maps.x, maps.y, maps.fields["fluence"], error)
     run = open_run(folder)
+    if is_axisymmetric(run.case):
+        return round_relief(run)
     if not run.is_complete:
         raise OutputError(f"{folder} is not complete")
     # a run of one period is a relief that repeats

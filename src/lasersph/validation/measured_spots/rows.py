@@ -10,8 +10,8 @@ from lasersph.validation.study import Study
 
 DURATION = 10.0
 """Of the pulses [ms]."""
-IRON = "material.surface_tension_slope="
-"""Leaves the slope to the metal, pure iron with the sulfur that is given."""
+OF_METAL = "material.surface_tension_slope="
+"""Leaves the slope to the metal, iron with its 20 ppm of sulfur."""
 MELT = (
     "{ solid = { polynomial = [9.248, 0.01571], scale = '1 W/(m K)' }, "
     "liquid = { value = '30 W/(m K)' } }"
@@ -19,8 +19,8 @@ MELT = (
 VARIANTS = {
     "same": ("the same inputs", ()),
     "heat": ("heat alone, no flow", ("solver.kind=conduction",)),
-    "iron": ("slope of pure iron, -0.43 mN/(m K)", (IRON,)),
-    "sulfur": ("iron with 20 ppm of sulfur", (IRON, "material.sulfur=0.002 %")),
+    "iron": ("slope of pure iron, -0.43 mN/(m K)", (OF_METAL, "material.sulfur=0 %")),
+    "sulfur": ("iron with 20 ppm of sulfur", (OF_METAL,)),
     "conductivity": (
         "melt that conducts 30 W/(m K) instead of 18 to 20",
         (f"material.conductivity={MELT}",),

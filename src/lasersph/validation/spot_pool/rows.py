@@ -28,11 +28,14 @@ def compare(study: Study) -> None:
     runs = {}
     for spacing in study.plan.spacings_nm:
         label = f"{spacing}nm"
-        runs[spacing] = one = study.run(label, f"particles.spacing={spacing} nm")
+        runs[spacing] = one = study.run(
+            label, *study.plan.settings, f"particles.spacing={spacing} nm"
+        )
         add_rows(study, spacing, one, judge=spacing == study.plan.judged_nm)
     # the error of the step, of the judged run
     spacing = study.plan.judged_nm
-    half = study.run(f"{spacing}nm-half", f"particles.spacing={spacing} nm", "time.step=25 ps")
+    settings = (*study.plan.settings, f"particles.spacing={spacing} nm")
+    half = study.run(f"{spacing}nm-half", *settings, "time.step=25 ps")
     change = speed_of(half) / speed_of(runs[spacing]) - 1.0
     study.add("half_step", abs(change), spacing=spacing)
     draw(study, runs)

@@ -11,6 +11,7 @@ from lasersph.solvers.melt_pool.transport import (
     after_transport,
     closed_flux,
     exchanged_values,
+    gathering,
     pair_flux,
 )
 
@@ -18,9 +19,15 @@ G = np.array([0.0, -2.0])  # from i upward to j: kernels fall with distance
 STILL, UP = np.zeros(2), np.array([0.0, 1.0])
 
 
-def flux(pools, x_j=1.0):
-    """Of a pair at r = 1 m: rings of 2 and 4 m, 3 m^2, both moving up with 1 m/s."""
-    return pair_flux(UP, UP, *pools, 3.0, 2.0, 4.0, G, np.array([x_j, 0.0]))
+U = np.array([[1.0, 3.0], [0.5, -2.0]]).T
+PLACE, DISTANCE = np.array([[1.0, 0.0], [1.5, 0.0]]), np.array([0.2, 0.3])
+
+
+def flux(pools, x_j=1.0, tangent=0.0, pair=(0, 1)):
+    """Of a pair at r = 1 m: rings of 2 and 4 m, 3 m^2, both moving up with 1 m/s; across a surface
+    that moves those at 1 and 1.5 m, 0.2 and 0.3 m below it, with velocities U, of a weight 2."""
+    rings = (3.0, 2.0, 4.0, G, 2.0, np.array([x_j, 0.0]))
+    return pair_flux(UP, UP, *pools, *rings, *pair, tangent, U.T, PLACE, DISTANCE)
 
 
 def test_flux_of_a_pair():
@@ -28,6 +35,20 @@ def test_flux_of_a_pair():
     axis."""
     assert flux((1, 1)) == 3.0 * 3.0 * -4.0
     assert flux((1, 2)) == flux((0, 0)) == flux((1, 0)) == flux((1, 1), -1.0) == 0.0
+
+
+def test_flux_across_a_surface_that_moves():
+    """(u_i + u_j)(r_j - r_i) + (w_i - w_j)(d_i + d_j), the same from both sides but for its sign;
+    none toward the image of an image."""
+    there = flux((1, 1), tangent=1.0)
+    assert there == pytest.approx(1.5 * 0.5 + 5.0 * 0.5)
+    assert flux((1, 1), tangent=1.0, pair=(1, 0)) == pytest.approx(-there)
+    assert flux((1, 1), tangent=2.0) == 0.0
+
+
+def test_what_gathers_in_a_ring():
+    """What flows out, and what its volume of 4 m grows by."""
+    assert gathering(6.0, -2.0, 4.0) == -2.0
 
 
 def test_potential_closes_a_flux():
@@ -41,7 +62,7 @@ def exchanged(flow, slope=0.0):
     tensor = np.zeros((2, 2))
     rise = np.array([0.0, slope])
     way = np.array([0.0, -1.0])
-    return exchanged_values(flow, 1.0, 2.0, STILL, STILL, rise, rise, tensor, tensor, way, 0.1)
+    return exchanged_values(flow, 1.0, 2.0, STILL, STILL, rise, rise, tensor, tensor, way, 0.0, 0.1)
 
 
 def test_melt_takes_along_what_it_comes_from():
@@ -59,17 +80,24 @@ def test_both_sides_of_a_pair_exchange_the_same():
     one, other = (1.0, np.array([1.0, 0.5]), np.array([0.3, 0.7])), (2.0, UP, np.array([0.1, 0.9]))
     way = np.array([0.4, -1.0])
     (h_i, v_i, g_i), (h_j, v_j, g_j) = one, other
-    there = exchanged_values(2.0, h_i, h_j, v_i, v_j, g_i, g_j, tensor, 2 * tensor, way, 0.1)
-    back = exchanged_values(-2.0, h_j, h_i, v_j, v_i, g_j, g_i, 2 * tensor, tensor, -way, 0.1)
+    there = exchanged_values(2.0, h_i, h_j, v_i, v_j, g_i, g_j, tensor, 2 * tensor, way, 0.0, 0.1)
+    back = exchanged_values(-2.0, h_j, h_i, v_j, v_i, g_j, g_i, 2 * tensor, tensor, -way, 0.0, 0.1)
     assert there[0] == -back[0]
     assert np.array_equal(there[1], -back[1])
 
 
 def test_step_of_a_ring():
     """What has left, times the step over the volume."""
-    h, v = after_transport(6.0, np.array([2.0, -4.0]), 10.0, UP, 2.0, 0.5)
+    h, v = after_transport(6.0, np.array([2.0, -4.0]), 10.0, UP, 2.0, 0.0, 4.0, 0.5)
     assert h == 10.0 - 1.5
     assert v == pytest.approx([-0.5, 2.0])
+
+
+def test_step_of_a_ring_that_grows():
+    """From 1 to 2 m^3, by what flows in: the same h and v fill more."""
+    share = after_transport(-20.0, -2.0 * UP, 10.0, UP, 2.0, 0.5, 4.0, 0.5)
+    assert share[0] == 10.0
+    assert share[1] == pytest.approx(UP)
 
 
 @pytest.fixture

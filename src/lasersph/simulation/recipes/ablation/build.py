@@ -190,7 +190,7 @@ def _first_hit(
 ) -> FirstHitLight:
     """The light; a preset of the published rule brings its reflectivity."""
     reflectivity = ejection_of(case).reflectivity
-    if reflectivity is not None and laser.reflectivity is None:
+    if reflectivity is not None and not laser.has_own_reflectivity:
         laser = laser.model_copy(update={"reflectivity": reflectivity})
     geometry = particles.geometry
     return FirstHitLight(

@@ -30,7 +30,7 @@ class AblationRecipe(Recipe[AblationSettings, Ablation]):
         """The solver with its particles, at the start of the run."""
         return ablation_solver(self.case, self.settings, backend, self.layers)
 
-    def view(self, solver: Ablation, step: int, limit: str) -> View:
+    def computed_view(self, solver: Ablation, step: int, limit: str) -> View:
         """The state for observers."""
         moving = ablation_fields(self.case, solver, step)
         return View(**moving, **self.common_view(solver, step, limit))

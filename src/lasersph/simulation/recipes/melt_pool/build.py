@@ -20,11 +20,11 @@ from lasersph.solvers.conduction.solver import Conduction
 from lasersph.solvers.conduction.walls import wall_enthalpy, wall_potential
 from lasersph.solvers.melt_pool.block_layers import StaticParticleData
 from lasersph.solvers.melt_pool.domain import PoolDomain
-from lasersph.solvers.melt_pool.eulerian_pool import EulerianPool
 from lasersph.solvers.melt_pool.face_conditions import FaceConditions
 from lasersph.solvers.melt_pool.flow import Flow
 from lasersph.solvers.melt_pool.flow_terms import PLANE, RINGS
 from lasersph.solvers.melt_pool.liquid import Liquid
+from lasersph.solvers.melt_pool.ring_pool import RingPool
 from lasersph.solvers.melt_pool.settings import MeltPoolSettings
 from lasersph.solvers.melt_pool.solver import MeltPool
 from lasersph.surface.flat_surface import FlatSurface, ImposedTemperature
@@ -33,6 +33,7 @@ from lasersph.surface.height_field import HeightField, cutoff_of
 from lasersph.surface.moving_surface import MovingSurface
 from lasersph.surface.pressure_condition import SurfaceLiquid
 from lasersph.surface.pressure_gradient import DifferenceGradient, SymmetricGradient
+from lasersph.surface.riding_surface import RidingSurface
 from lasersph.surface.smoothing import End
 from lasersph.surface.surface import Surface
 
@@ -60,7 +61,9 @@ def with_flow(case: Case, settings: MeltPoolSettings, layers: Layers, heat: Cond
     # What flows stays among the fine columns.
     (x,) = layers.fine_bounds
     box = (x, (-float(layers.thickness.sum()), 0.0))
-    conditions = FaceConditions(box, case.boundaries, case.flow, case.initial_temperature)
+    conditions = FaceConditions(
+        box, case.boundaries, case.flow, case.initial_temperature, has_axis=is_section
+    )
 
     # The surface: a line that moves, a flat free one, or none below a lid.
     liquid = liquid_of(case, settings)
@@ -69,7 +72,8 @@ def with_flow(case: Case, settings: MeltPoolSettings, layers: Layers, heat: Cond
     if case.surface_moves:
         line = _surface_line(case, conditions, filling.fine_surface)
         _raise_particles(case, body, static, line)
-        surface = MovingSurface(
+        moving = RidingSurface if is_section else MovingSurface
+        surface = moving(
             backend,
             count,
             line=line,
@@ -86,7 +90,7 @@ def with_flow(case: Case, settings: MeltPoolSettings, layers: Layers, heat: Cond
             has_stress=settings.marangoni,
             forcing=SurfaceForcing(
                 _given_temperature(case),
-                case.boundaries.surface_pressure_wave,
+                case.boundaries.pressure_drive,
                 case.boundaries.surface_mass_flux_wave,
                 recoil_of(case),
             ),
@@ -111,7 +115,7 @@ def with_flow(case: Case, settings: MeltPoolSettings, layers: Layers, heat: Cond
     volume = FIELDS["volume"]
     loses_mass = case.boundaries.surface_mass_flux_wave is not None or settings.evaporates
     is_rearranged = case.flow is None and (case.initial_surface or case.pause != "compute")
-    if is_rearranged or (case.surface_moves and loses_mass):
+    if is_rearranged or (case.surface_moves and (loses_mass or is_section)):
         volume = replace(volume, is_kept=True)
     if volume.is_kept:
         body.particles.keep("mass")
@@ -130,7 +134,7 @@ def with_flow(case: Case, settings: MeltPoolSettings, layers: Layers, heat: Cond
         body.particles["volume"],
         body.free,
     )
-    bodies = backend.asarray(filling.body_volume) if is_section else body.particles["volume"]
+    bodies = backend.zeros(count) if is_section else body.particles["volume"]
     terms = RINGS if is_section else PLANE
     flow = Flow(body.particles, liquid, surface, settings, layers.spacing, bodies, terms)
 
@@ -138,7 +142,7 @@ def with_flow(case: Case, settings: MeltPoolSettings, layers: Layers, heat: Cond
     if case.flow is not None:
         start = case.flow.initial.velocity(filling.position[:, :count], box)
         flow.set_initial_velocity(start)
-    pool = EulerianPool if is_section else MeltPool
+    pool = RingPool if is_section else MeltPool
     solver = pool(heat, flow, domain, settings, case.pause)
     if case.flow is None and case.initial_surface is not None:
         solver.lay_out()
@@ -155,11 +159,15 @@ def _surface_line(case: Case, conditions: FaceConditions, columns: int) -> Heigh
     kinds: dict[str, End] = {"symmetry": "mirror", "free-slip": "mirror", "periodic": "periodic"}
     left, right = (conditions.flow_kind(side) for side in ("left", "right"))
     ends = kinds.get(left, "pinned"), kinds.get(right, "pinned")
-    line = HeightField((x[0],), (width,), (columns,), (ends,), cutoff_of(width))
+    line = HeightField(
+        *((x[0],), (width,), (columns,), (ends,), cutoff_of(width)),
+        is_axisymmetric=case.geometry.is_axisymmetric,
+    )
     start = case.initial_surface
     # Heights at the start; at walls the ends of the line stay where they are.
     if start is not None:
-        line.height = start.at(line.centers(), width)
+        is_ring = case.geometry.is_axisymmetric
+        line.height = start.at(line.centers(), width, is_ring=is_ring)
         low, high = (float(start.at(np.array(end))) for end in x)
         line.pins = ((low, high),)
     return line
@@ -173,7 +181,8 @@ def _raise_particles(case: Case, body: Body, static: StaticParticleData, line: H
     count, depth = body.count, case.domain.depth
     # Columns become longer in proportion, so that volume and mass do with them.
     x, z = body.filling.position[:, :count]
-    length_ratio = 1.0 + start.at(x, line.widths[0]) / depth
+    is_ring = case.geometry.is_axisymmetric
+    length_ratio = 1.0 + start.at(x, line.widths[0], is_ring=is_ring) / depth
     z[:] = length_ratio * (z + depth) - depth
     static.volume[:] *= length_ratio
     body.particles.set("mass", body.backend.to_host(body.particles["mass"]) * length_ratio)
@@ -211,4 +220,4 @@ def _given_temperature(case: Case) -> ImposedTemperature | None:
     if case.boundaries.kind_of("surface") not in DIRICHLET:
         return None
     mean = case.boundaries.temperature_of("surface", case.initial_temperature)
-    return ImposedTemperature(mean, case.boundaries.surface_temperature_wave)
+    return ImposedTemperature(mean, case.boundaries.temperature_drive)

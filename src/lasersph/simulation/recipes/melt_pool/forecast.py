@@ -223,9 +223,9 @@ def _temperature_range(case: Case) -> float:
 
 def _imposed_gradient(case: Case) -> float:
     """Largest gradient of the temperature imposed on the surface of a box [K/m]."""
-    wave = case.boundaries.surface_temperature_wave
-    if wave is not None:
-        return 2.0 * pi * abs(wave.amplitude) / wave.period
+    drive = case.boundaries.temperature_drive
+    if drive is not None:
+        return drive.shape.steepest
     (x,) = case.domain.lateral(case.geometry)
     return _temperature_range(case) / (x[1] - x[0])
 
@@ -261,9 +261,9 @@ def _box_speed(case: Case, gravity: float, viscosity: float, density: float, slo
 def _open_layer_speed(case: Case, stress: float, viscosity: float, eta: float) -> float:
     """Largest speed of a layer whose surface moves under a stress [Pa]: that of a half space at
     rest, Stokes' first problem, and no more than steady shear over the bottom [m/s]."""
-    wave, end = case.boundaries.surface_temperature_wave, case.time.end
+    drive, end = case.boundaries.temperature_drive, case.time.end
     # Stokes' first problem, u = (tau/eta) 2 sqrt(nu t/pi); steady shear has u = tau d/eta.
-    lasting = end if wave is None else min(wave.end or end, end) - wave.start
+    lasting = end if drive is None else min(drive.end or end, end) - drive.start
     return stress / eta * min(2.0 * sqrt(viscosity * max(lasting, 0.0) / pi), case.domain.depth)
 
 

@@ -49,7 +49,7 @@ class MeltPoolRecipe(HeatRecipe[MeltPoolSettings, MeltPool]):
         heat = self.build_heat(backend, settings)
         return with_flow(self.case, self.settings, self.layers, heat)
 
-    def view(self, solver: MeltPool, step: int, limit: str) -> View:
+    def computed_view(self, solver: MeltPool, step: int, limit: str) -> View:
         """The state for observers: arrays where they lie, those of a closed box as copies, whose
         observer looks at some states later than the step after which it is shown them."""
         backend = solver.backend
@@ -68,9 +68,14 @@ class MeltPoolRecipe(HeatRecipe[MeltPoolSettings, MeltPool]):
             fields["melt_fraction"] = np.ones(solver.particle_count)
         if isinstance(surface := solver.domain.surface, MovingSurface):
             line = surface.line
-            fields["relief"] = Relief(line.centers(), line.height.copy(), line.ends[0][0])
-            fields["volume"] = fetch(solver.particles["volume"])
-        return View(**fields, evaporated=self.evaporated(solver))
+            fields["relief"] = Relief(
+                line.centers(),
+                line.height.copy(),
+                line.ends[0][0],
+                is_section=self.case.geometry.is_axisymmetric,
+            )
+            fields["volume"] = fetch(solver.flow.volume)
+        return View(**fields, **self.evaporated(solver))
 
     def observers(self, iterations: Sequence[str]) -> Observers:
         """Observers of a flow; a box has no pool, but center lines and heat through its walls."""
@@ -100,7 +105,8 @@ class MeltPoolRecipe(HeatRecipe[MeltPoolSettings, MeltPool]):
         (x,) = self.case.domain.lateral(self.case.geometry)
         halves = 0.0 if period is None else 2.0 * (x[1] - x[0]) / period
         is_whole = halves > 0.5 and abs(halves - round(halves)) <= WHOLE * halves
-        return Topography(period if is_whole else None)
+        is_section = self.case.geometry.is_axisymmetric
+        return Topography(period if is_whole else None, is_section=is_section)
 
     def products_of(self, stage: str) -> float:
         """Cost of a step, see `RunStage`."""
