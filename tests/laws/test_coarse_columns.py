@@ -43,7 +43,8 @@ SPACE = ("solver.geometry=planar", "solver.dimensions=3", "domain.width=200 um",
          "particles.coarsest=10 um", "time.step=100 ns", "time.end=1 us")  # fmt: skip
 PLANE = ("solver.geometry=planar", "domain.width=240 um")
 POOL = ("particles.spacing=32 nm", "time.step=100 ps", "time.end=26 ns")
-FLAT = ("solver.geometry=planar", "domain.extent=half", "domain.width=16 um")
+FLAT = ("solver.geometry=planar", "domain.extent=half", "domain.width=16 um",
+        "solver.flow.surface=flat")  # fmt: skip
 MOVING = (*FLAT, "solver.flow.surface=moving", "material=steel-316l", "laser.reflectivity=0.3",
           "laser.absorption={ kind = 'surface' }", "time.end=24 ns")  # fmt: skip
 
