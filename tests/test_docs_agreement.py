@@ -82,7 +82,9 @@ def test_section_of_a_spot_is_called_a_line_focus(page):
     assert not sections or "line focus" in text
 
 
-COMMAND = re.compile(r"lasersph (?:run|check|threshold|converge|spot) +([a-z][a-z0-9-]*)(?![-\w./])")
+COMMAND = re.compile(
+    r"lasersph (?:run|check|threshold|converge|spot) +([a-z][a-z0-9-]*)(?![-\w./])"
+)
 
 
 def test_commands_name_cases_that_are_shipped():

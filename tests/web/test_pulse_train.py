@@ -109,7 +109,7 @@ def test_pauses_are_cut_out(open_page, address):
 
 
 def test_first_pulse_fills_the_axis_while_it_is_computed(open_page, address):
-    """Pauses that nothing was computed in yet have no place beside it; a single pulse keeps its end."""
+    """Pauses that are still to come have no place beside it; a single pulse keeps its end."""
     page = open_page(address).page
     assert page.evaluate(BEGUN, [[1e-8, 3e-8], [0.0, PERIOD]]) == [0, 3e-8]
     assert page.evaluate(BEGUN, [[1e-8, 3e-8], []]) == [0, 1]
