@@ -91,7 +91,10 @@ SPELLING = re.compile(r"(?<![-_\"`./=])\baluminium\b(?![-_.\"`/]\w|`|\.toml)", r
 
 def test_prose_spells_aluminum():
     """Titles of cases and metals, and pages outside of code: two spellings look like two metals."""
-    prose = {name: re.sub(r"```.*?```", "", text, flags=re.DOTALL) for name, text in TEXTS.items()}
+    written = {name: text for name, text in TEXTS.items() if not name.startswith("docs/generated")}
+    prose = {
+        name: re.sub(r"```.*?```", "", text, flags=re.DOTALL) for name, text in written.items()
+    }
     lines = [
         f"{name}: {line}"
         for name, text in prose.items()

@@ -241,17 +241,19 @@ def _evaporation(case: CaseContents) -> Iterator[tuple[str, str]]:
     key, right = ("vaporization", "plateau") if has_flux else ("plateau", "hold")
     # Both ways of evaporating need the molar mass, a flux the critical temperature as well.
     if has_flux or (case.solver.evaporates and case.solver.phase_change):
-        if vapor is None or vapor.molar_mass is None:
+        examples = {"molar_mass": "56 g/mol"}
+        if has_flux:
+            examples["critical_temperature"] = "9250 K"
+        if vapor is None:
+            examples = {"temperature": "3000 K", "latent_heat": "6.3 MJ/kg", **examples}
+        lacking = [name for name in examples if getattr(vapor, name, None) is None]
+        if lacking:
+            lines = ", ".join(f'{name} = "{examples[name]}"' for name in lacking)
             yield (
                 f"solver.{key}",
-                f'"{getattr(case.solver, key)}" needs vaporization data with molar_mass, which '
-                f'material "{case.material.name}" lacks; write {key} = "{right}"',
-            )
-        elif has_flux and vapor.critical_temperature is None:
-            yield (
-                "solver.vaporization",
-                '"flux" needs the temperature above which there is no liquid surface; write e.g. '
-                'critical_temperature = "9250 K" in vaporization of the material',
+                f'"{getattr(case.solver, key)}" needs numbers that [vaporization] of material '
+                f'"{case.material.name}" lacks; write there, e.g. {lines}, '
+                f'or here {key} = "{right}"',
             )
     if case.solver.evaporates and not case.solver.phase_change:
         yield (

@@ -59,3 +59,26 @@ def test_a_metal_without_what_a_flux_needs(missing):
         vapor["source"].pop(missing, "")
         vapor[missing] = None
     assert not Case.model_validate(data).solver.has_vapor_flux
+
+
+@pytest.mark.parametrize(
+    ("missing", "asked"),
+    [
+        (None, ("temperature", "latent_heat", "molar_mass", "critical_temperature")),
+        ("critical_temperature", ("critical_temperature",)),
+    ],
+)
+def test_a_flux_asks_for_all_that_a_metal_lacks(missing, asked):
+    """In one line, so that nobody is refused twice."""
+    data = load_case("texture-steel").resolved()
+    vapor = data["material"]["vaporization"]
+    if missing is None:
+        data["material"]["vaporization"] = None
+    else:
+        vapor["source"].pop(missing, "")
+        vapor[missing] = None
+    with pytest.raises(ValueError, match="lacks; write there") as refused:
+        Case.model_validate(data)
+    said = str(refused.value)
+    wanted = ("temperature", "latent_heat", "molar_mass", "critical_temperature")
+    assert [name for name in wanted if f" {name} = " in said] == list(asked)
