@@ -58,7 +58,7 @@ BAD_CASES = {
     "missing table": ("[time]\nend = \"200 ns\"\nstep = \"1 ns\"\n", "", ": time: missing; write [time] with end = \"100 ns\""),
     "table as text": ("[time]\nend = \"200 ns\"\nstep = \"1 ns\"\n", "[solver.time]\n", ": time: missing; write [time] with end = \"100 ns\""),
     "future format": ("title", "schema_version = 3\ntitle", ":1: schema_version: must be 2, got 3"),
-    "text for a table": ("[boundaries]\n" + BOTTOM, "boundaries = 3", ":20: particles.boundaries: unknown key; known here: spacing, arrangement, fine_depth, coarsest, ratio, kernel, support_ratio"),
+    "text for a table": ("[boundaries]\n" + BOTTOM, "boundaries = 3", ":20: particles.boundaries: unknown key; known here: spacing, arrangement, fine_depth, fine_width, coarsest, ratio, kernel, support_ratio"),
     # choices
     "unknown beam": ('kind = "interference"', 'kind = "interferance"', ':8: laser.beam.kind: must be "uniform" or "top-hat" or "gaussian" or "super-gaussian" or "ring" or "interference", got "interferance"; do you mean "interference"?'),
     "beam without kind": (BEAM, "beam = {}", ':8: laser.beam.kind: missing; write kind = "uniform"'),

@@ -81,7 +81,7 @@ def _block(case: CaseContents) -> Iterator[tuple[str, str]]:
 
 
 def _box(flow: FlowConditions) -> Iterator[tuple[str, str]]:
-    """What holds in a box that is all fluid, but not around an axis."""
+    """Keys of a box that is all fluid that hold in a plane alone."""
     if flow.left != AT_REST:
         yield "solver.flow.left", "the left side of a section (r, z) is its axis; leave it out"
     if flow.initial != RestingFlow():

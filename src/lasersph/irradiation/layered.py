@@ -142,7 +142,7 @@ class LayeredLight:
         self._over = backend.asarray(surface, "index") if filling.beside is not None else None
         self._T_s = backend.zeros(surface.size)
         self._surface: SurfaceColumns | None = None
-        self._stretched: dict[str, Array] = {}
+        self._in_columns: dict[str, Array] = {}
         self._cell = {"area": backend.asarray(area), "width": backend.asarray(width[0])}
         self._moving: dict[str, Array] = {}
         # particles move in 2-D, and only light that goes deep needs cells
@@ -184,8 +184,8 @@ class LayeredLight:
         """Let the light meet particles on their lattice, as at the start."""
         self._surface = None
 
-    def stretch(self, position: Array, volume: Array, tops: Array) -> None:
-        """Let the light meet particles that keep their columns, which have been stretched.
+    def follow_columns(self, position: Array, volume: Array, tops: Array) -> None:
+        """Let the light meet particles that keep their columns, which have grown.
 
         Args:
             position: (2, n) [m]. volume: (n,) [m^2]. tops: (columns,) their upper ends [m].
@@ -195,7 +195,7 @@ class LayeredLight:
         column, share = self._lattice["column"], self.backend.zeros(volume.shape[0])
         fields = {"x": position, "V": volume, "column": column, **self._cell}
         self.backend.pointwise(share_at_depth, fields, share, tops=tops, alpha=self.alpha)
-        self._stretched = {"column": column, "share": share}
+        self._in_columns = {"column": column, "share": share}
 
     def distribute(
         self,
@@ -307,7 +307,7 @@ class LayeredLight:
         if self.incident == 0.0:
             self.backend.fill(self.deposit, 0.0)
             return 0.0
-        T_s, shares = temperature, self._stretched or self._lattice
+        T_s, shares = temperature, self._in_columns or self._lattice
         if self._over is not None:
             T_s = self._T_s
             self.backend.gather(temperature, self._over, T_s)

@@ -52,13 +52,13 @@ def ride(i, x, V, m, flows, lost, start, inverse, columns, base, ratio, step, sp
     column = loops.column_of(x, flows, start, inverse, columns)
     if column >= columns:
         return 1.0 * x, 1.0 * V, 1.0 * m, 0.0 * x, 0.0 * V, 1.0, 1.0
-    stretch = ratio[column]
-    place = vector(x[0], base[column] + stretch * (x[1] - base[column]))
+    growth_ratio = ratio[column]
+    place = vector(x[0], base[column] + growth_ratio * (x[1] - base[column]))
     # what evaporates leaves from the particle at the surface
     left = lost[column] / inverse if i < columns else 0.0
-    growth = ((stretch - 1.0) * V + left) / step
-    height = stretch * V * inverse / spacing
-    return place, stretch * V, stretch * m, (place - x) / step, growth, height, height
+    growth = ((growth_ratio - 1.0) * V + left) / step
+    height = growth_ratio * V * inverse / spacing
+    return place, growth_ratio * V, growth_ratio * m, (place - x) / step, growth, height, height
 
 
 class RidingSurface(MovingSurface):
@@ -92,7 +92,7 @@ class RidingSurface(MovingSurface):
         return found
 
     def validity_error(self) -> str:
-        """What `MovingSurface` says, or rows too flat or too tall to be computed."""
+        """Refusal of `MovingSurface`, or rows too flat or too tall to be computed."""
         low, high = self.row_heights
         if low >= LEAST_HEIGHT and high <= LARGEST_HEIGHT:
             return super().validity_error()

@@ -37,7 +37,7 @@ class RingPool(MeltPool):
         self.transport = Transport(self.particles, self.flow.volume)
         lattice = self.domain.lattice
         self._lengths = backend.asarray(lattice.geometry.measure(lattice.position))
-        self._rest = Ride(backend.zeros(self.position.shape), backend.zeros(count))
+        self._at_rest = Ride(backend.zeros(self.position.shape), backend.zeros(count))
         self._columns = OwnColumns(backend, self.body.filling.fine_surface, self.body.area)
         self._at_surface = backend.asarray(self.body.filling.surface, "index")
         self._size_bodies()
@@ -70,7 +70,7 @@ class RingPool(MeltPool):
         """Let the particles follow a surface that moves to the middle of the step."""
         surface = self.domain.surface
         if not isinstance(surface, RidingSurface):
-            return self._rest
+            return self._at_rest
         now = self._surface_step(self.position, step)
         surface.advance_first_half(now)
         # vapor leaves with the heat of the particle at the surface
@@ -100,7 +100,7 @@ class RingPool(MeltPool):
         # columns that are coarse rest
         tops = np.zeros(self._at_surface.shape[0])
         tops[: self._columns.count] = surface.column_tops(self.position, volume)
-        light.stretch(self.position, volume, self.backend.asarray(tops))
+        light.follow_columns(self.position, volume, self.backend.asarray(tops))
         self._columns.incline(surface.length_ratio())
         self.heat.exchange.use_columns(self._columns, self._at_surface)
 

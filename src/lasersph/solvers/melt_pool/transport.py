@@ -78,7 +78,7 @@ def pair_flux(
 
 
 def gathering(total, growth, measure):
-    """What gathers in a particle beyond what its volume grows by and its surface loses [m^3/s]."""
+    """Volume that gathers in a particle beyond its growth and the loss of its surface [m^3/s]."""
     return total + growth * measure
 
 
