@@ -31,7 +31,7 @@ def driven(study: Study, metal: str, film: dict) -> Panel:
     times, spacing = 1e-9 * np.array(study.plan.times), film["spacing"]
     one = film_run(study, metal, spacing, times[-1], *film["settings"])
     drive = study.case(*film["settings"]).boundaries.surface_temperature_bump
-    assert drive is not None
+    assert drive is not None and drive.end is not None
     bump = FilmBump(film_of(study, *film["settings"]), drive.radius)
 
     # heights out to two radii, over the largest one
@@ -53,7 +53,7 @@ def free_bump(study: Study) -> Panel:
 
     # heights over the first one
     start = study.case(*plan["settings"]).initial_surface
-    assert start is not None and start.radius is not None
+    assert start is not None and start.radius is not None and start.amplitude is not None
     r, found = heights(one, times)
     wanted = FilmBump(film, start.radius).heights(r, times, initial=start.amplitude)
     error = np.max(np.abs(found - wanted)) / start.amplitude
