@@ -164,12 +164,14 @@ def heat_in_file(path, time):
 
 @pytest.mark.parametrize("kind", [*CONDUCTION, "melt-pool", "ablation"])
 def test_file_of_particles_holds_the_stored_heat(kind, tmp_path):
-    """Summed from the written masses and enthalpies it is that of the summary to rounding."""
+    """Summed from the written masses and enthalpies it is that of the summary to rounding; of the
+    pool half a period is written, and the summary is of the whole."""
     result = run(case_of(kind), tmp_path / "run", threads=1)
     stored = result.summary["energy"]["stored_J"]
     assert stored > 0.0
     found = heat_in_file(result.folder / "particles.vtkhdf", result.summary["time_s"])
-    assert found == pytest.approx(stored, rel=1e-12)
+    images = 2 if kind == "melt-pool" else 1
+    assert images * found == pytest.approx(stored, rel=1e-12, abs=0.0)
     if kind == "melt-pool":
         assert result.summary["flow"]["particles_max"] > 0
     if kind == "ablation":

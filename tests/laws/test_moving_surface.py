@@ -109,9 +109,9 @@ def test_the_line_goes_through_the_middle_of_a_step(is_late, monkeypatch):
     if is_late:
         go_halfway, calls = moving_surface.MovingSurface._go_halfway, count()
 
-        def go_twice_at_the_end(surface, now):
+        def go_twice_at_the_end(surface, now, loss_share):
             for _ in range(2 * (next(calls) % 2)):
-                go_halfway(surface, now)
+                go_halfway(surface, now, loss_share)
 
         monkeypatch.setattr(moving_surface.MovingSurface, "_go_halfway", go_twice_at_the_end)
     coarse, fine = (go(film(), 10e-9, step=step) for step in (3.3334e-10, 1.6667e-10))

@@ -128,17 +128,7 @@ def test_half_of_the_mass_has_left_in_the_middle_of_a_step(is_late, monkeypatch)
     """Half of the step: the same height within 0.1 %; 0.5 % off where the curvature that drives a
     step is that of a surface from which nothing has left in it."""
     if is_late:
-        go_halfway = MovingSurface._go_halfway
-
-        def leave_at_the_end(surface, now):
-            share = 2.0 if surface.is_second else 0.0
-            surface.is_second, lost = not surface.is_second, surface.loss.lost
-            surface.loss.lost = share * lost
-            go_halfway(surface, now)
-            surface.loss.lost = lost
-
-        monkeypatch.setattr(MovingSurface, "is_second", False, raising=False)
-        monkeypatch.setattr(MovingSurface, "_go_halfway", leave_at_the_end)
+        monkeypatch.setattr(MovingSurface, "loss_shares", (0.0, 1.0))
     heights = []
     for step in ("1.2 ns", "0.6 ns"):
         _, solver = solver_of("moving-film", *FLUX_WAVE, "time.end=40 ns", f"time.step={step}")
