@@ -247,3 +247,26 @@ def test_second_pulse_on_a_relief():
     assert host(solver, "mass") == pytest.approx(mass, rel=1e-9, abs=0.0)
     go(solver, 1e-3 + 2.4e-8)
     assert solver.fluid_count > 0
+
+
+def test_rows_below_a_deep_hollow_keep_their_columns():
+    """Rows that have become low are laid out again: mass and heat stay, and the first particles are
+    the uppermost of their columns."""
+    start = {"amplitude": -2e-7, "radius": 6e-7}
+    solver = spot_pool(
+        half_ball,
+        spacing=5e-8,
+        width=1.6e-6,
+        material="steel-304",
+        solver={"flow": {"surface": "moving", "initial_surface": start}, "vaporization": "flux"},
+    )[1]
+    before, renewal = books(solver), solver.layout_renewal
+    renewal.recedes = True
+    renewal.follow_recession()
+    after, line = books(solver), solver.domain.surface.line
+    assert after.mass == pytest.approx(before.mass, rel=1e-9, abs=0.0)
+    assert after.heat == pytest.approx(before.heat, rel=1e-9, abs=0.0)
+    tops = solver.domain.surface.column_tops(solver.position, solver.particles["volume"])
+    assert tops == pytest.approx(line.height, abs=1e-13)
+    r = host(solver, "position")[0, : line.count]
+    assert r == pytest.approx(line.centers(), abs=1e-15)

@@ -5,7 +5,8 @@ number of cells in each column follows its thickness, their sum stays what it is
 
     n_c ~ (d + eta_c)/dz,    dz = mean (d + eta_c) / mean n,    z = -d + (k + 1/2) (d + eta_c)/n_c
 
-with the depth d of these layers, rounded by largest remainders. So all cells are alike within
+with the depth d of these layers, rounded by largest remainders; where particles keep their columns,
+each column has as many as before. So all cells are alike within
 half of one in a column, how deep a relief ever is, and their volume is what lies below it.
 
 What particles carry goes along in three steps, each of which keeps the sum of V f: those of a
@@ -38,12 +39,13 @@ class ReliefLayout(NamedTuple):
     row: NDArray[np.intp]
 
 
-def lay_below(layers: Layers, height: Array) -> ReliefLayout:
+def lay_below(layers: Layers, height: Array, *, keep_columns: bool = False) -> ReliefLayout:
     """Particles of the finest layers of a 2-D domain below a relief.
 
     Args:
         height: (columns,) of the surface over each column of the first layer [m]; its lowest point
-            lies above the lower end of these layers.
+            lies above the lower end of these layers. keep_columns: whether no particle changes its
+            column.
 
     Raises:
         ValueError: a column would hold no particle.
@@ -52,7 +54,9 @@ def lay_below(layers: Layers, height: Array) -> ReliefLayout:
     columns, depth = height.size, layers.fine_depth
     thickness = depth + height
     # largest remainders: whole cells, the last ones where most of a cell was cut off
-    wanted = thickness / np.mean(thickness) * fine
+    wanted = (
+        np.full(columns, float(fine)) if keep_columns else thickness / np.mean(thickness) * fine
+    )
     count = np.floor(wanted).astype(np.int64)
     remainder = np.argsort(count - wanted, kind="stable")[: fine * columns - int(count.sum())]
     count[remainder] += 1

@@ -61,12 +61,28 @@ def ride(i, x, V, m, flows, lost, start, inverse, columns, base, ratio, step, sp
     return place, growth_ratio * V, growth_ratio * m, (place - x) / step, growth, height, height
 
 
+def is_uppermost(i, x, at_surface, start, inverse, columns):
+    """1 for the first particle of a column; of coarse columns beside them the mark that it has."""
+    if (x[0] - start) * inverse >= columns:
+        return 1.0 * at_surface
+    return 1.0 if i < columns else 0.0
+
+
 class RidingSurface(MovingSurface):
     """A moving surface whose particles keep their columns; arguments of `MovingSurface`."""
 
     loss_shares = (1.0, 0.0)
     row_heights = (1.0, 1.0)
     """Least and largest height of a row that flows, in spacings."""
+
+    def find(self, position: Array) -> None:
+        """Set marks, depths and ghosts; one particle of a column lies at the surface, however low
+        its rows are."""
+        super().find(position)
+        number = self.backend.asarray(np.arange(position.shape[1]), "index")
+        fields = {"i": number, "x": position, "at_surface": self.at_surface}
+        grid: Constants = self._grid | {"columns": float(self.line.count)}
+        self.backend.pointwise(is_uppermost, fields, self.at_surface, **grid)
 
     def ride(self, now: SurfaceStep) -> Ride:
         """Let what flows follow the line with its columns; `now` is changed in place."""

@@ -7,7 +7,7 @@ from spot_pools import half_ball, spot_pool
 from lasersph import compute
 from lasersph.surface.columns import OwnColumns
 from lasersph.surface.height_field import HeightField
-from lasersph.surface.riding_surface import LARGEST_HEIGHT, LEAST_HEIGHT, ride
+from lasersph.surface.riding_surface import LARGEST_HEIGHT, LEAST_HEIGHT, is_uppermost, ride
 
 ENDS = (("mirror", "pinned"),)
 WIDTH = 2.5e-8
@@ -70,6 +70,16 @@ def test_solid_rests():
     assert place.tolist() == [0.5, -1.0]
     assert (V, m, growth) == (2.0, 6.0, 0.0)
     assert not w.any()
+
+
+def test_one_particle_of_a_column_lies_at_the_surface():
+    """The first, however low the next one lies; coarse columns keep their marks."""
+    grid = {"start": 0.0, "inverse": 1.0, "columns": 2.0}
+    inside, beside = np.array([1.5, -0.1]), np.array([2.5, -0.1])
+    assert is_uppermost(1, inside, 0.0, **grid) == 1.0
+    assert is_uppermost(3, inside, 1.0, **grid) == 0.0
+    assert is_uppermost(9, beside, 1.0, **grid) == 1.0
+    assert is_uppermost(9, beside, 0.0, **grid) == 0.0
 
 
 def test_own_columns():

@@ -127,7 +127,8 @@ class LayoutRenewal:
         height = domain.surface.heights(self.body.filling.fine_surface)
         more = "give a larger particles.fine_depth (of a box domain.depth)"
         try:
-            layout = lay_below(domain.layers, height)
+            keeps = domain.lattice.geometry.is_axisymmetric
+            layout = lay_below(domain.layers, height, keep_columns=keeps)
         except ValueError as error:
             raise UnevenRelief(f"{error}; {more}") from None
 
