@@ -1,12 +1,16 @@
 """Pools of steel in sections (r, z), laid out in memory for tests of their flow."""
 
+from itertools import count
+
 import numpy as np
+import pytest
 from flow_boxes import place_of
 from law_runs import start_from
 
-from lasersph import compute
+from lasersph import compute, run
 from lasersph.case import Case
 from lasersph.simulation.recipes import recipe_of
+from lasersph.simulation.time_loop import Stopped
 
 LIGHT = {
     "fluence": 1e4,
@@ -46,3 +50,11 @@ def half_ball(r, z):
     """Melt within 0.9 um of the center of the spot, hottest there, in hot solid."""
     distance = np.hypot(r, z)
     return np.where(distance < 9e-7, 2600.0 - 6e14 * distance**2, 1500.0)
+
+
+def run_in_two_parts(case, folder, steps=450):
+    """Run with two threads, stop after some steps, and go on from the checkpoint."""
+    taken = count(1)
+    with pytest.raises(Stopped):
+        run(case, folder, threads=2, should_stop=lambda: next(taken) > steps)
+    run(case, folder, threads=2, resume=True)

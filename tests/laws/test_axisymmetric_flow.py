@@ -6,11 +6,10 @@ from flow_boxes import place_of
 from law_runs import go, host
 from scipy.integrate import quad
 from scipy.special import j1
-from spot_pools import half_ball, spot_case, spot_pool
+from spot_pools import half_ball, run_in_two_parts, spot_case, spot_pool
 
 from lasersph import open_run, run
 from lasersph.simulation.recipes import recipe_of
-from lasersph.simulation.time_loop import Stopped
 
 SLOW = {
     "base": "steel-304-demuth",
@@ -109,16 +108,7 @@ def test_ends_and_steps(tmp_path):
     how = {"spacing": 5e-8, "width": 2e-6, "depth": 8e-7}
     case = spot_case(**how, time={"end": 2.6e-8})
     whole = run(case, tmp_path / "whole", threads=1)
-    count = 0
-
-    def stop():
-        nonlocal count
-        count += 1
-        return count > 450
-
-    with pytest.raises(Stopped):
-        run(case, tmp_path / "part", threads=2, should_stop=stop)
-    run(case, tmp_path / "part", threads=2, resume=True)
+    run_in_two_parts(case, tmp_path / "part")
     one, other = (open_run(tmp_path / name).snapshots[-1] for name in ("whole", "part"))
     for name in ("temperature", "velocity", "pressure"):
         assert one[name].tobytes() == other[name].tobytes()

@@ -5,14 +5,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pytest
 from law_runs import go, host
-from spot_pools import half_ball, spot_case, spot_pool
+from spot_pools import half_ball, run_in_two_parts, spot_case, spot_pool
 
 from lasersph import compute, open_run, run
 from lasersph.analytic.film_bump import FilmBump
 from lasersph.analytic.liquid_film import Drive, LiquidFilm
 from lasersph.case import Case
 from lasersph.simulation.recipes import recipe_of
-from lasersph.simulation.time_loop import Stopped
 from lasersph.surface.flat_surface import ImposedTemperature
 
 STEEL = {"density": 6863.0, "viscosity": 7e-3, "surface_tension": 1.6}
@@ -203,16 +202,7 @@ def test_steps_ends_and_threads(tmp_path):
     the same bits."""
     case = spot_case(**SPOT, time={"end": 2.6e-8})
     run(case, tmp_path / "whole", threads=1)
-    count = 0
-
-    def stop():
-        nonlocal count
-        count += 1
-        return count > 450
-
-    with pytest.raises(Stopped):
-        run(case, tmp_path / "part", threads=2, should_stop=stop)
-    run(case, tmp_path / "part", threads=2, resume=True)
+    run_in_two_parts(case, tmp_path / "part")
     one, other = (open_run(tmp_path / name).snapshots[-1] for name in ("whole", "part"))
     for name in ("temperature", "velocity", "pressure"):
         assert one[name].tobytes() == other[name].tobytes()
