@@ -9,7 +9,8 @@ is above zero the melt rises near the axis, flows outward above and inward below
 other way round. What turns is the largest |psi| of a cell; its height is that of the rows in which
 |psi| is a tenth of this or more. A cell that turns less than a tenth of the other is none.
 
-Left out: several cells that turn the same way count as one.
+Left out: several cells that turn the same way count as one. Below a surface that moves melt goes
+where its surface rises, and no line of psi closes: it has no cells here.
 """
 
 from __future__ import annotations
@@ -29,7 +30,7 @@ CELLS = {"outward": 1.0, "inward": -1.0}
 
 
 class FlowCells(Observer):
-    """Observes the cells of a section (r, z), whose particles rest."""
+    """Observes the cells of a section (r, z), whose particles rest below a flat surface."""
 
     title = "cells of the flow"
     note = (
@@ -55,11 +56,6 @@ class FlowCells(Observer):
         )
     )
 
-    def __init__(self) -> None:
-        super().__init__()
-        self._order: np.ndarray | None = None
-        self._begins: np.ndarray | None = None
-
     def observe(self, view: View) -> Row:
         """Turnover [m^3/s] and height [m] of both cells; 0 where one does not exist."""
         values = (0.0,) * len(self.columns)
@@ -75,26 +71,20 @@ class FlowCells(Observer):
     def _stream_function(self, view: View) -> tuple[np.ndarray, np.ndarray]:
         """psi at the outer edges of the particles of each row (rows, longest) [m^3/s], 0 beyond
         its end, and the heights of the rows (rows,) [m]."""
-        flow = flow_of(view)
+        flow, r = flow_of(view), view.position[0]
+        # numbers go row by row, in each outward from the axis
+        begins = np.flatnonzero(np.diff(r, prepend=np.inf) < 0.0)
         rising = flow.velocity[-1] * view.volume / view.width[-1]
-        # particles row by row outward, as they lie throughout a run
-        if self._order is None or self._begins is None:
-            self._order = np.lexsort((view.position[0], view.position[-1]))
-            z = view.position[-1, self._order]
-            is_new = np.diff(z, prepend=-np.inf) > 0.5 * float(np.min(view.width[-1]))
-            self._begins = np.flatnonzero(is_new)
-        order, begins = self._order, self._begins
-        psi = np.cumsum(np.where(flow.flows, rising, 0.0)[order])
+        psi = np.cumsum(np.where(flow.flows, rising, 0.0))
         # each row counts from its axis
-        before = np.concatenate([[0.0], psi])[begins]
-        lengths = np.diff(np.append(begins, order.size))
-        psi -= np.repeat(before, lengths)
+        lengths = np.diff(np.append(begins, r.size))
+        psi -= np.repeat(np.concatenate([[0.0], psi])[begins], lengths)
         # beyond what flows psi has no meaning
-        psi = np.where(flow.flows[order], psi, 0.0)
+        psi = np.where(flow.flows, psi, 0.0)
         strongest = np.array(
             [np.maximum.reduceat(psi, begins), np.minimum.reduceat(psi, begins)], float
         )
-        return strongest.T, view.width[-1, order[begins]]
+        return strongest.T, view.width[-1, begins]
 
     def summary(self) -> dict[str, object]:
         """Nothing where nothing turned."""

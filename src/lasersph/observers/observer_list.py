@@ -190,7 +190,7 @@ def flow_observers(
     if box:
         here = (one for one in heat if not isinstance(one, MeltPool | Vaporization))
         return Observers([*here, *flow, BoxFlow(), WallExchange()])
-    cells = (FlowCells(),) if covered > dimension else ()
+    cells = (FlowCells(),) if covered > dimension and topography is None else ()
     return Observers([*heat, *flow, FlowExtrema(), *cells])
 
 
