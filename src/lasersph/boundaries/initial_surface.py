@@ -42,13 +42,19 @@ SHAPES_IN_WORDS = (
 
 
 class InitialSurface(Model):
-    """Height of the surface at the start: a wave amplitude cos(2 pi x / period), a bump amplitude
+    """Height of the surface at the start: a wave amplitude cos(2 pi x / period), in 3-D times
+    cos(2 pi y / period_y), a bump amplitude
     exp(-r^2 / radius^2), the cap of a sphere (of a cylinder in a plane), or that of a file."""
 
     amplitude: Length | None = Field(
         default=None, description="of a wave, at x = 0; of a bump, at r = 0"
     )
     period: Annotated[Length, Field(gt=0)] | None = Field(default=None, description="of a wave")
+    period_y: Annotated[Length, Field(gt=0)] | None = Field(
+        default=None,
+        exclude_if=lambda given: given is None,
+        description="of a wave along y; 3-D; default: nothing varies along y",
+    )
     radius: Annotated[Length, Field(gt=0)] | None = Field(
         default=None,
         exclude_if=lambda given: given is None,
@@ -86,6 +92,8 @@ class InitialSurface(Model):
         given = [key for key in SHAPE_KEYS if getattr(self, key) is not None]
         if self.rows and given:
             raise refusal(("path", f"contradicts {given[0]} beside it; leave one of them out"))
+        if self.period_y is not None and self.period is None:
+            raise refusal(("period_y", 'says nothing without period; write e.g. period = "5 um"'))
         # Two keys belong together; others are of two shapes.
         if len(given) == 1:
             partner, example = PARTNERS[given[0]]
@@ -123,7 +131,7 @@ class InitialSurface(Model):
         from lasersph.boundaries.surface_shapes import Bump, Cap, Wave  # few cases have one
 
         if self.amplitude is not None and self.period is not None:
-            return Wave(self.amplitude, self.period)
+            return Wave(self.amplitude, self.period, self.period_y)
         if self.amplitude is not None and self.radius is not None:
             return Bump(self.amplitude, self.radius)
         if self.cap_height is not None and self.cap_radius is not None:
@@ -144,6 +152,19 @@ class InitialSurface(Model):
             return self.shape.at(place)
         half = 0.5 * width
         return self.shape.mean(place - half, place + half, is_ring=is_ring)
+
+    def shape_at(self, x: Array, y: Array) -> Array:
+        """Height [m] at x and y [m]; rows of a file hold for all y."""
+        return self.at(x) if self.shape is None else self.shape.at(x, y)
+
+    def mean_over_columns(
+        self, places: tuple[Array, Array], widths: tuple[float, float]
+    ) -> Array:
+        """Mean height [m] over the columns of a body around places along x and y [m]; rows of a
+        file hold for all y."""
+        if self.shape is None:
+            return self.at(places[0])
+        return self.shape.mean_over_columns(places, widths)
 
     @property
     def depth(self) -> float:

@@ -227,7 +227,7 @@ class Boundaries(Model):
         drive = self.temperature_drive
         if drive is None or face != SURFACE:
             return mean
-        return mean + drive.mean_over(x, *interval)
+        return mean + drive.mean_over((x,), *interval)
 
     @property
     def temperature_drive(self) -> TemperatureWave | TemperatureBump | None:

@@ -1,12 +1,13 @@
 """Waves and bumps that a case imposes on a surface for a time.
 
-wave     amplitude cos(2 pi x / period)
-bump     amplitude exp(-r^2 / radius^2), r = |x|, in a section (r, z) the distance from its axis
+wave     amplitude cos(2 pi x / period), in 3-D times cos(2 pi y / period_y) where that is given
+bump     amplitude exp(-r^2 / radius^2), r the distance from x = y = 0, or from an axis
 """
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Annotated
 
 import numpy as np
@@ -49,9 +50,9 @@ class SurfaceDrive(Model, ABC):
     def shape(self) -> SurfaceShape:
         """How it varies along the surface while it acts."""
 
-    def at(self, x: NDArray[np.floating]) -> Array:
-        """The quantity at x [m] while it acts, any shape."""
-        return self.shape.at(np.asarray(x, float))
+    def at(self, x: NDArray[np.floating], y: NDArray[np.floating] | float = 0.0) -> Array:
+        """The quantity at x and y [m] while it acts, any shape."""
+        return self.shape.at(np.asarray(x, float), y)
 
     @property
     def is_timed(self) -> bool:
@@ -65,22 +66,29 @@ class SurfaceDrive(Model, ABC):
             return float(self.start <= begin < last)
         return max(min(end, last) - max(begin, self.start), 0.0) / (end - begin)
 
-    def mean_over(self, x: NDArray[np.floating], begin: float, end: float) -> Array:
-        """The quantity at x [m], averaged over the time from `begin` to `end` [s]."""
-        return self.share_of(begin, end) * self.at(x)
+    def mean_over(self, places: Sequence[NDArray[np.floating]], begin: float, end: float) -> Array:
+        """The quantity at places along x, and y where there is one [m], averaged over the time from
+        `begin` to `end` [s]."""
+        return self.share_of(begin, end) * self.at(*places)
 
 
 class SurfaceWave(SurfaceDrive):
-    """A quantity on the surface with amplitude cos(2 pi x / period), from `start` to `end`."""
+    """A quantity on the surface with amplitude cos(2 pi x / period), times cos(2 pi y / period_y),
+    from `start` to `end`."""
 
     period: Annotated[Length, Field(gt=0)] = Field(description="wavelength along x")
+    period_y: Annotated[Length, Field(gt=0)] | None = Field(
+        default=None,
+        exclude_if=lambda given: given is None,
+        description="wavelength along y; 3-D; default: nothing varies along y",
+    )
 
     @property
     def shape(self) -> Wave:
         """How it varies along the surface while it acts."""
         from lasersph.boundaries.surface_shapes import Wave  # few cases have one
 
-        return Wave(self.amplitude, self.period)
+        return Wave(self.amplitude, self.period, self.period_y)
 
 
 class SurfaceBump(SurfaceDrive):

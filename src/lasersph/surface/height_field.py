@@ -29,7 +29,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from copy import copy
-from functools import partial
+from functools import cached_property, partial
 from itertools import combinations
 from math import pi, prod, sqrt
 from typing import Literal
@@ -39,6 +39,7 @@ from numpy.typing import NDArray
 
 from lasersph.surface.smoothing import (
     EVEN_PARITY,
+    ODD_PARITY,
     PIN_WEIGHT,
     End,
     Ends,
@@ -101,13 +102,36 @@ class HeightField:
         self.height = np.zeros(shape)
         self.pins: Pins = ((0.0, 0.0),) * len(shape)
         self._smoothing: dict[tuple[tuple[float, ...], bool], Smoothing] = {}
-        # the smoothed field of heights 1 over pins at 0, by which the volume is kept
-        self._raised = self.smooth(np.ones(shape), EVEN_PARITY, 0.0)
 
     def centers(self, axis: int = 0) -> Array:
         """Middle of the columns along an axis [m]."""
         number = np.arange(self.shape[axis], dtype=np.float64)
         return self.start[axis] + self.widths[axis] * (number + 0.5)
+
+    @property
+    def places(self) -> tuple[Array, ...]:
+        """`shape` each, middle of the columns along each axis [m]."""
+        axes = (self.centers(axis) for axis in range(len(self.shape)))
+        return tuple(np.meshgrid(*axes, indexing="ij"))
+
+    @property
+    def support_places(self) -> tuple[Array, ...]:
+        """Places [m] at which smoothed values are known: the columns."""
+        return self.places
+
+    def at_columns(self, smoothed: Array) -> Array:
+        """Smoothed values at the columns."""
+        return smoothed
+
+    @property
+    def inverse_widths(self) -> tuple[float, ...]:
+        """1 / width along each axis [1/m]."""
+        return tuple(1.0 / width for width in self.widths)
+
+    @property
+    def inverse_area(self) -> float:
+        """1 / area of a column seen from above [1/m^(d-1)]."""
+        return prod(self.inverse_widths)
 
     @property
     def measure(self) -> Array:
@@ -164,22 +188,17 @@ class HeightField:
     @property
     def curvature(self) -> Array:
         """kappa of the smoothed field [1/m], > 0 on a crest."""
-        smoothed = self.smoothed
+        smoothed, axes = self.smoothed, range(len(self.shape))
         slopes = self.gradient(smoothed)
-        square = slopes**2
-        terms = []
-        for axis, width in enumerate(self.widths):
-            # (S^2 - eta_a^2) eta_aa; on a line the factor is 1
-            second = self._stencil(SECOND, smoothed, EVEN_PARITY, axis) / width**2
-            others = (square[other] for other in range(len(self.shape)) if other != axis)
-            terms.append(sum(others, 1.0) * second)
-        if self.is_axisymmetric:
-            # the curvature around the axis, eta'/r times S^2
-            terms.append((1.0 + square[0]) * slopes[0] / self.centers())
-        for a, b in combinations(range(len(self.shape)), 2):
-            # eta_ab: the slope along b is even along a
-            terms.append(-2.0 * slopes[a] * slopes[b] * self.derivative(slopes[b], EVEN_PARITY, a))
-        return -np.sum(terms, axis=0) / (1.0 + np.sum(square, axis=0)) ** 1.5
+        second = [
+            self._stencil(SECOND, smoothed, EVEN_PARITY, axis) / width**2
+            for axis, width in enumerate(self.widths)
+        ]
+        # eta_ab: the slope along b is even along a
+        mixed = [self.derivative(slopes[b], EVEN_PARITY, a) for a, b in combinations(axes, 2)]
+        # around an axis of revolution, eta'/r
+        around = slopes[0] / self.centers() if self.is_axisymmetric else None
+        return curvature_of(slopes, second, mixed, around)
 
     def heights_after(self, step: float, *flux: Array) -> Array:
         """Heights after `step` [s].
@@ -211,6 +230,11 @@ class HeightField:
         change -= self._raised * (np.sum(measure * change) / np.sum(measure * self._raised))
         self.height = self.height + min(share, 1.0) * change
 
+    @cached_property
+    def _raised(self) -> Array:
+        """Smoothed field of heights 1 over pins at 0, by which the volume is kept."""
+        return self.smooth(np.ones(self.shape), EVEN_PARITY, 0.0)
+
     def first_harmonic(self, period: float) -> float:
         """(2/period) times the integral over x of eta cos(2 pi x/period) over a period [m].
 
@@ -221,6 +245,26 @@ class HeightField:
         mean_cosine = np.cos(k * self.centers()) * np.sinc(self.widths[0] / period)
         section = self.height.reshape(self.shape[0], -1).mean(axis=1)
         return float(2.0 * np.mean(section * mean_cosine))
+
+    def at_nodes(self, values: Array, *odd_axes: int) -> Array:
+        """Values `shape` with two more at either end of each axis, flattened; they are odd along
+        some axes."""
+        for axis in range(len(self.shape)):
+            parity = ODD_PARITY if axis in odd_axes else EVEN_PARITY
+            values = self.extend(values, parity, axis)
+        return values.ravel()
+
+    def fill_gaps(self, values: Array, known: NDArray[np.bool_]) -> Array:
+        """Values (count,) of all columns from the known ones: along a line linear between them, on
+        a grid those of the nearest."""
+        if len(self.shape) == 1:
+            places = self.centers()
+            return np.interp(places, places[known], values[known])
+        from scipy.ndimage import distance_transform_edt  # few runs have a grid of columns
+
+        unknown = ~known.reshape(self.shape)
+        nearest = distance_transform_edt(unknown, return_distances=False, return_indices=True)
+        return values.reshape(self.shape)[tuple(nearest)].ravel()
 
     def extend(self, values: Array, parity: float = EVEN_PARITY, axis: int = 0) -> Array:
         """Values with two more at either end of an axis."""
@@ -266,6 +310,23 @@ class HeightField:
         return along_axis(
             lambda line: np.convolve(line, weights[::-1], mode="valid"), axis, extended_values
         )
+
+
+def curvature_of(
+    slopes: Array, second: list[Array], mixed: list[Array], around: Array | None = None
+) -> Array:
+    """kappa [1/m] from slopes (d - 1, ...), the second derivatives along each axis, eta_xy of a
+    grid [1/m], and eta'/r of rings [1/m]."""
+    square, terms = slopes**2, []
+    for axis, own in enumerate(second):
+        # (S^2 - eta_a^2) eta_aa; on a line the factor is 1
+        others = (square[other] for other in range(len(second)) if other != axis)
+        terms.append(sum(others, 1.0) * own)
+    if around is not None:
+        terms.append((1.0 + square[0]) * around)
+    for (a, b), own in zip(combinations(range(len(second)), 2), mixed, strict=True):
+        terms.append(-2.0 * slopes[a] * slopes[b] * own)
+    return -np.sum(terms, axis=0) / (1.0 + np.sum(square, axis=0)) ** 1.5
 
 
 def length_ratio(slopes: Array) -> Array:

@@ -1,17 +1,17 @@
-"""`MovingSurface`: a free surface z = eta(x, t), as what it gives a step of the flow.
+"""`MovingSurface`: a free surface z = eta(x, y, t), as what it gives a step of the flow.
 
     heights               `height_field`, moved by the mean velocity of the particles in each column
-    tangential stress     t . (2 mu D) . n = d gamma/ds                   [Demuth2020, eq. (15)]
+    tangential stress     P (2 mu D n) = grad_s gamma                   [Demuth2020, eq. (15)]
     normal stress         p = p_e + gamma kappa + 2 mu n . D . n, see `surface_stress`
-    velocities beyond     v + 2 d (du_t/dn t - du_t/ds n), no component turned around
+    velocities beyond     v + 2 d (s - div_s v n), no component turned around
 
-n points out of the melt, t along +x, d is the distance from the local tangent. With D and
-div v = 0 the stresses become
+n points out of the melt, d is the distance from the local tangent, s the tangential part of dv/dn.
+With D and div v = 0 the stresses become
 
-    du_t/dn = tau/mu - n . dv/ds,        p_b = p_e + gamma kappa - 2 mu t . dv/ds
+    s = grad_s gamma/mu - (grad_s v) n,      p_b = p_e + gamma kappa - 2 mu div_s v
 
-where dv/ds is that of the velocity along the line: of particles near it, carried on to it, smoothed
-as slope and curvature are, and mu that at the temperature of the line. A ghost across the surface
+where grad_s v is that of the velocity along the surface: of particles near it, carried on to it,
+smoothed as slope and curvature are, and mu that at its temperature. A ghost across the surface
 has p = 2 p_b - p_i; in the pressure equation the surface is a boundary of given pressure.
 
 The line goes half of its way through a step with the velocity at its begin, the flow of the step is
@@ -37,16 +37,18 @@ from lasersph.particles.neighbor_lists import NeighborList, members_of
 from lasersph.particles.particles import Particles
 from lasersph.surface import loops
 from lasersph.surface.capillary_waves import fastest_wave, surface_limits
-from lasersph.surface.column_flux import flux_through, volume_flux
+from lasersph.surface.column_flux import volume_flux
+from lasersph.surface.column_loops import thickness_of
 from lasersph.surface.forcing import SurfaceForcing
 from lasersph.surface.height_field import HeightField, length_ratio
 from lasersph.surface.pressure_condition import SurfaceLiquid, find_conditions
 from lasersph.surface.pressure_gradient import DifferenceGradient
 from lasersph.surface.recession import MassLoss, take_mass
-from lasersph.surface.segments import SurfaceSegments
-from lasersph.surface.smoothing import ODD_PARITY
+from lasersph.surface.pools import SurfacePools
+from lasersph.surface.segments import SurfaceSegments, overrun
 from lasersph.surface.surface import Surface, SurfaceNeighbors, SurfaceStep
-from lasersph.surface.surface_stress import PARITIES, StressAlong, SurfaceStress
+from lasersph.surface.surface_fit import surface_velocity_of_grid, surface_velocity_of_line
+from lasersph.surface.surface_stress import StressAlong, SurfaceStress
 from lasersph.surface.time_rule import Midpoint
 from lasersph.surface.validity import validity_error
 
@@ -62,7 +64,7 @@ Accuracy: less is no row; with 3 a quarter of the relief of `texture-steel` was 
 END_KINDS = {"pinned": loops.PINNED, "mirror": loops.MIRROR, "periodic": loops.PERIODIC}
 STATE = (
     Field("surface_height", "eta", "m", "height of a column", is_kept=True),
-    Field("surface_shear_rate", "shear", "1/s", "du_t/dn", is_kept=True),
+    Field("surface_shear_rate", "shear", "1/s", "du_t/dn", "vector", is_kept=True),
     Field("surface_strain_rate", "strain_rate", "1/s", "du_t/ds", is_kept=True),
     Field("surface_followed", "followed", "kg/m^2", "evaporated mass that has left", is_kept=True),
 )
@@ -116,18 +118,21 @@ class MovingSurface(Surface):
         self.velocity_jump = backend.zeros((dimension, count))
         self.stress_jump = backend.zeros((dimension, count))
 
-        # the line as loops know it
-        low, high = (END_KINDS[kind] for kind in line.ends[0])
-        self._grid: Constants = {"start": line.start[0], "inverse": 1.0 / line.widths[0]}
-        self._ends = self._grid | {"columns": line.count, "low_end": low, "high_end": high}
-        self._nodes: Constants = self._grid | {"nodes": float(line.count + 4)}
+        # the columns as loops know them
+        low, high = zip(*((END_KINDS[a], END_KINDS[b]) for a, b in line.ends), strict=True)
+        self._grid: Constants = {"start": line.start, "inverse_width": line.inverse_widths}
+        self._grid |= {"columns": tuple(map(float, line.shape))}
+        self._ends: Constants = {"low_end": low, "high_end": high}
+        self._nodes: Constants = {"start": line.start, "inverse_width": line.inverse_widths}
+        self._nodes |= {"nodes": tuple(n + 4.0 for n in line.shape)}
         self._marks: Constants = {"near": spacing, "far": support, "min_distance": min_distance}
         self._columns = {"k": backend.asarray(np.arange(line.count), "index")}
+        self._fit = surface_velocity_of_line if dimension == 2 else surface_velocity_of_grid
 
         # columns: what survives a step, what moves, what leaves, values along the line
-        self._state = Particles(backend, line.count, 1, STATE)
+        self._state = Particles(backend, line.count, len(line.shape), STATE)
         self._is_overrun = np.zeros(line.count, bool)
-        self.segments = SurfaceSegments(line)
+        self.segments = SurfaceSegments(line) if dimension == 2 else SurfacePools(line)
         self.loss = MassLoss(line.count, liquid.particle_density, forcing)
         self.values = self._no_values()
         metal = liquid.material
@@ -140,13 +145,15 @@ class MovingSurface(Surface):
 
     def _no_values(self) -> StressAlong:
         """Zero stresses, strain rates and temperatures along the line."""
-        return StressAlong(*(np.zeros(self.line.count) for _ in StressAlong._fields))
+        columns = self.line.count
+        found = StressAlong(*(np.zeros(columns) for _ in StressAlong._fields))
+        return found._replace(shear=np.zeros((len(self.line.shape), columns)))
 
     @property
     def state(self) -> Particles:
         """Table of the columns, with their present values."""
         own = self.values
-        values = self.line.height, own.shear, own.strain_rate, self.loss.followed
+        values = self.line.height.ravel(), own.shear, own.strain_rate, self.loss.followed
         for field, value in zip(STATE, values, strict=True):
             self._state.set(field.name, value)
         return self._state
@@ -154,7 +161,8 @@ class MovingSurface(Surface):
     def take_state(self) -> None:
         """Go on from the values of the table."""
         found = [np.array(self.backend.to_host(self._state[field.name])) for field in STATE]
-        self.line.height, shear, strain_rate, self.loss.followed = found
+        height, shear, strain_rate, self.loss.followed = found
+        self.line.height = height.reshape(self.line.shape)
         self.values = self.values._replace(shear=shear, strain_rate=strain_rate)
         self._update_tables()
 
@@ -166,7 +174,7 @@ class MovingSurface(Surface):
         return self.velocity_jump
 
     def heights(self, columns: int) -> HostArray:
-        """Heights of the columns."""
+        """Heights of the columns, in the shape of their grid."""
         return self.line.height
 
     def reset(self) -> None:
@@ -184,12 +192,12 @@ class MovingSurface(Surface):
         self.backend.pointwise(loops.surface_geometry, {"x": position}, out, **tables)
 
     def length_ratio(self) -> Array:
-        """(columns,) sqrt(1 + eta_x^2), with the slope at which the particles see the surface."""
-        return self.backend.asarray(length_ratio(self.line.gradient(self.line.height)))
+        """(columns,) sqrt(1 + |grad eta|^2), with the slope at which particles see the surface."""
+        return self.backend.asarray(length_ratio(self.line.gradient(self.line.height)).ravel())
 
     def find_depth(self, position: Array, out: Array) -> None:
         """Depth below the local surface along z [m] of particles at `position` [m]."""
-        self.backend.pointwise(loops.below_line, {"x": position}, out, **self._tables)
+        self.backend.pointwise(loops.below_surface, {"x": position}, out, **self._tables)
 
     def update_stress(self, now: SurfaceStep, neighbors: SurfaceNeighbors, active: Array) -> None:
         """Set what the line gives the particles and their ghosts; see `Surface`."""
@@ -197,46 +205,47 @@ class MovingSurface(Surface):
         self._set_values(now.position)
 
         # velocity and temperature along the line, fitted to the particles of five columns
-        members = self._members(now.position, now.flows)
-        found = backend.zeros((2, line.count)), backend.zeros(line.count), backend.zeros(line.count)
+        members, count = self._members(now.position, now.flows), line.count
+        found = backend.zeros((len(self.normal), count)), backend.zeros(count), backend.zeros(count)
         tables: Constants = {"row_start": members.row_start, "member": members.neighbor}
         tables |= {"x": now.position, "v": now.velocity, "jump": self.velocity_jump}
         tables |= {"T": now.T, "depth": self.depth, "spacing": self.spacing}
-        backend.pointwise(loops.surface_velocity, self._columns, found, **tables, **self._ends)
+        backend.pointwise(self._fit, self._columns, found, **tables, **self._grid, **self._ends)
         velocity, T, weight = (backend.to_host(values) for values in found)
 
         # columns without melt near the surface, or just reached: what those beside them have
-        full, places = (weight > 0.0) & ~self._is_overrun, line.centers()
+        full = (weight > 0.0) & ~self._is_overrun
         if full.any() and not full.all():
-            velocity = np.array([np.interp(places, places[full], u[full]) for u in velocity])
-            T = np.interp(places, places[full], T[full])
+            velocity = np.array([line.fill_gaps(u, full) for u in velocity])
+            T = line.fill_gaps(T, full)
 
-        # du_t/dn, du_t/ds and p_b along each part that moves
+        # s, div_s v and p_b along each part that moves
         values, largest = self._no_values()._replace(T_line=np.array(T)), 0.0
         self.segments.update_heights()
         for columns, own in self.segments.parts:
-            x, u = places[columns], velocity[:, columns]
-            along, tension = self.stress_law.along(own, x, now.interval, u, T[columns])
+            along, tension = self.stress_law.along(
+                own, now.interval, velocity[:, columns], T[columns]
+            )
             largest = max(largest, tension)
             for whole, part in zip(values, along, strict=True):
-                whole[columns] = part
+                whole[..., columns] = part
         self._tension = largest or self._tension
 
         # beside a pool the pressure that holds at its edge
         molten = self.segments.is_molten
         if molten.any() and not molten.all():
-            p_b = np.interp(places, places[molten], values.p_b[molten])
-            values = values._replace(p_b=p_b)
+            values = values._replace(p_b=line.fill_gaps(values.p_b, molten))
         self.values = values
         self._update_values()
         self._set_values(now.position)
 
         # boundary coefficients of the pressure equation, and the jump that passes on all stress
         relative = self.liquid.relative_viscosity_at(values.T_line)
+        ratio = length_ratio(self.segments.slopes)
         self.pressure, share = find_conditions(
-            backend, line, molten, members, self.ghosts, neighbors, relative
+            backend, line, molten, members, self.ghosts, neighbors, relative, ratio
         )
-        shares = backend.asarray(np.pad(share, 2, mode="edge"))
+        shares = backend.asarray(np.pad(share.reshape(line.shape), 2, mode="edge").ravel())
         fields = {"x": now.position, "jump": self.velocity_jump}
         backend.pointwise(loops.passed_on, fields, self.stress_jump, **self._nodes, share=shares)
 
@@ -249,7 +258,7 @@ class MovingSurface(Surface):
         self.segments.choose(thick | self._is_overrun)
         # particles of the columns that do not move rest
         is_molten = backend.asarray(self.segments.is_molten.astype(float))
-        grid = self._grid | {"columns": float(line.count), "is_molten": is_molten}
+        grid = self._grid | {"is_molten": is_molten}
         fields = {"x": position, "flows": flows}
         return backend.pointwise(loops.hold_column, fields, (flows,), reduce=("sum",), **grid)[0]
 
@@ -257,18 +266,19 @@ class MovingSurface(Surface):
         """(columns,) height of what flows [m]."""
         found, members = self.backend.zeros(self.line.count), self._members(position, flows)
         tables: Constants = {"row_start": members.row_start, "member": members.neighbor}
-        tables |= {"V": volume, "inverse": self._grid["inverse"]}
-        self.backend.pointwise(loops.thickness_of, self._columns, found, **tables)
+        tables |= {"V": volume, "inverse_area": self.line.inverse_area}
+        self.backend.pointwise(thickness_of, self._columns, found, **tables)
         return self.backend.to_host(found)
 
     def _is_thick(self, height: HostArray) -> NDArray[np.bool_]:
         """(columns,) whether the melt, of a height (columns,) [m], is thick, as a mean of five."""
-        thickness = self.line.mean_of_neighbors(height, np.ones(height.size, bool))
-        return thickness >= MIN_MELT_THICKNESS * self.spacing
+        shape = self.line.shape
+        thickness = self.line.mean_of_neighbors(height.reshape(shape), np.ones(shape, bool))
+        return thickness.ravel() >= MIN_MELT_THICKNESS * self.spacing
 
     def _overrun(self, thick: NDArray[np.bool_]) -> NDArray[np.bool_]:
         """(columns,) over which melt runs from the thick ones (columns,)."""
-        return self.segments.overrun(thick) & ~thick
+        return overrun(self.line, thick) & ~thick
 
     def advance_first_half(self, now: SurfaceStep) -> None:
         """Move the line through the first half of a step, with the velocity at its begin."""
@@ -281,13 +291,14 @@ class MovingSurface(Surface):
         short waves; find the particles again, and take from them what has left in the step."""
         self._go_halfway(now, self.loss_shares[1])
         # short waves are damped within the time of the fastest wave that the line shows
-        line, moved, step = self.line, self.line.height.copy(), now.interval[1] - now.interval[0]
+        line, step = self.line, now.interval[1] - now.interval[0]
+        moved = line.height.ravel().copy()
         rate = fastest_wave(self._tension, self.liquid.density, line.cutoff)
         self.segments.update_heights()
         for part, own in self.segments.parts:
             own.damp_short_waves(step * rate)
             moved[part] = own.height
-        line.height = moved
+        line.height = moved.reshape(line.shape)
         self._update_tables()
         self.find(now.position)
         return self._take_mass(now)
@@ -303,19 +314,17 @@ class MovingSurface(Surface):
     def _go_halfway(self, now: SurfaceStep, loss_share: float) -> None:
         """Move the line by what flows in half of a step, and by a share of what leaves in it."""
         self.segments.update_heights()
-        flux = volume_flux(self.backend, self.line, self.bottom, now, self._ends)
-        half, height = 0.5 * (now.interval[1] - now.interval[0]), self.line.height.copy()
-        for part, own in self.segments.parts:
-            flow = flux_through(own, part, flux)
-            height[part] = own.heights_after(half, flow) - loss_share * self.loss.lost[part]
-        self.line.height = height
+        line, half = self.line, 0.5 * (now.interval[1] - now.interval[0])
+        flux = volume_flux(self.backend, line, self.bottom, now, self._grid, self._ends)
+        height = self.segments.heights_after(half, flux) - loss_share * self.loss.lost
+        line.height = height.reshape(line.shape)
         self._update_tables()
 
     def confine(self, position: Array, flows: Array) -> None:
         """Keep particles that flow below the surface."""
         fields = {"x": position, "flows": flows}
         tables: Constants = self._tables | {"min_depth": MIN_DEPTH * self.spacing}
-        self.backend.pointwise(loops.below_surface, fields, position, **tables)
+        self.backend.pointwise(loops.confined, fields, position, **tables)
 
     def validity_error(self) -> str:
         """Slope above 1, or too little liquid below; see `Surface`."""
@@ -346,7 +355,7 @@ class MovingSurface(Surface):
         columns = self.line.count
         key = self.backend.zeros(flows.shape[0], "index")
         fields = {"x": position, "flows": flows}
-        self.backend.pointwise(loops.column_of, fields, key, **self._grid, columns=float(columns))
+        self.backend.pointwise(loops.column_of, fields, key, **self._grid)
         return members_of(self.backend, key, columns)
 
     def _set_values(self, position: Array) -> None:
@@ -359,17 +368,30 @@ class MovingSurface(Surface):
 
     def _update_tables(self) -> None:
         """Tables of the line for loops: place and slope of the surface, and values along it."""
-        line, asarray = self.line, self.backend.asarray
-        slope = line.derivative(line.height)
+        line, asarray, axes = self.line, self.backend.asarray, range(len(self.line.shape))
+        slopes = line.gradient(line.height)
+        height, slope = line.at_nodes(line.height), [line.at_nodes(slopes[a], a) for a in axes]
+        # eta_xy of a grid, odd along both axes
+        twist = line.at_nodes(line.derivative(slopes[1]), 0, 1) if len(slopes) > 1 else height
         self._tables = self._nodes | {
-            "height": asarray(line.extend(line.height)),
-            "slope": asarray(line.extend(slope, ODD_PARITY)),
+            "height": asarray(height),
+            "slope": asarray(np.array(slope)),
+            "twist": asarray(twist),
         }
         self._update_values()
 
     def _update_values(self) -> None:
-        """Values along the line for loops."""
-        self._fields = {
-            name: self.backend.asarray(self.line.extend(values, PARITIES[name]))
-            for name, values in self.values._asdict().items()
+        """Values along the line for loops, those of shear odd along their axes."""
+        line, own, asarray = self.line, self.values, self.backend.asarray
+        shape = line.shape
+        fields = {
+            name: line.at_nodes(values.reshape(shape))
+            for name, values in own._asdict().items()
+            if name != "shear"
         }
+        # on a line the gradient of the temperature has a sign
+        if len(shape) == 1:
+            fields["gradient"] = line.at_nodes(own.gradient, 0)
+        shear = [line.at_nodes(part.reshape(shape), a) for a, part in enumerate(own.shear)]
+        fields["shear"] = np.array(shear)
+        self._fields = {name: asarray(values) for name, values in fields.items()}

@@ -19,6 +19,7 @@ from lasersph.materials import Material
 from lasersph.materials.viscosity import ViscosityTable
 from lasersph.particles.neighbor_lists import NeighborList
 from lasersph.surface import loops
+from lasersph.surface.column_loops import thickness_of
 from lasersph.surface.height_field import HeightField
 from lasersph.surface.surface import PressureCondition, SurfaceGhosts, SurfaceNeighbors
 
@@ -56,12 +57,14 @@ def find_conditions(
     ghosts: SurfaceGhosts,
     neighbors: SurfaceNeighbors,
     relative_viscosity: HostArray,
+    length_ratio: HostArray,
 ) -> tuple[PressureCondition, HostArray]:
     """Condition of the pressure equation, and the share of the surface (columns,) that pairs see.
 
     Args:
         molten: (columns,) which move. members: particles that flow, by column. relative_viscosity:
-            (columns,) of the surface over that at the liquidus.
+            (columns,) of the surface over that at the liquidus. length_ratio: (columns,) true length
+            of the surface over that seen from above.
     """
     count = neighbors.pairs.row_start.shape[0] - 1
     # boundary coefficient, p_b and length of surface seen, for each particle
@@ -79,8 +82,11 @@ def find_conditions(
     # length that the particles of each column see, over its own, of rings over their area
     seen, places = backend.zeros(line.count), {"k": backend.asarray(np.arange(line.count), "index")}
     tables = {"row_start": members.row_start, "member": members.neighbor, "V": length}
-    backend.pointwise(loops.thickness_of, places, seen, **tables, inverse=1.0 / line.widths[0])
-    share = backend.to_host(seen) / (line.measure * line.length_ratio * relative_viscosity)
-    share = np.where(molten, line.mean_of_neighbors(share, molten), 1.0)
+    area = {"inverse_area": line.inverse_area}
+    backend.pointwise(thickness_of, places, seen, **tables, **area)
+    share = backend.to_host(seen) / (line.measure.ravel() * length_ratio * relative_viscosity)
+    shape = line.shape
+    mean = line.mean_of_neighbors(share.reshape(shape), molten.reshape(shape)).ravel()
+    share = np.where(molten, mean, 1.0)
     condition = PressureCondition(coefficient=a, value=p_b)
     return condition, np.clip(share, LEAST_SHARE, 1.0 / LEAST_SHARE)

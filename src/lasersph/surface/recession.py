@@ -46,10 +46,13 @@ from lasersph.particles.filling import Filling
 from lasersph.particles.neighbor_lists import members_of
 from lasersph.particles.particles import Particles
 from lasersph.surface import loops
+from lasersph.surface.column_loops import thickness_of
 from lasersph.surface.forcing import SurfaceForcing
 from lasersph.surface.height_field import HeightField
+from lasersph.surface.pools import SurfacePools
 from lasersph.surface.segments import SurfaceSegments
 from lasersph.surface.surface import SurfaceStep
+from lasersph.surface.surface_fit import TEMPERATURE_DEPTH
 
 SHARE = 8.0
 """Depth from which mass is taken, over the thickness that has left. Derived: a share of 1 / S of
@@ -85,7 +88,7 @@ def recede(
     v_j,
     share,
     columns,
-    inverse,
+    inverse_area,
     density,
 ):
     """Place [m], volume [m^2], mass [kg/m], enthalpy [J/kg] and velocity [m/s] of a particle after
@@ -94,7 +97,7 @@ def recede(
     Args:
         i, column: its number and that of its column. row_start, member: particles of each column
             within reach. depth, V_j, h_j, v_j: of all. share: s of each column. columns: their
-            number; that of particles beyond reach. inverse: 1 / width of a column [1/m].
+            number; that of particles beyond reach. inverse_area: of a column [1/m^(d-1)].
     """
     if column >= columns:
         return 1.0 * x, 1.0 * V, 1.0 * m, 1.0 * h, 1.0 * v, 0.0
@@ -122,7 +125,8 @@ def recede(
     enthalpy = h + density * entering / mass * (h_j[source] - h)
 
     # it sinks by what has left below its middle
-    place = vector(x[0], x[1] - s * inverse * (total - above - 0.5 * V))
+    sunk = s * inverse_area * (total - above - 0.5 * V)
+    place = vector(*(x[k] for k in range(len(x) - 1)), x[-1] - sunk)
     return (
         place,
         left,
@@ -168,7 +172,9 @@ class MassLoss:
         self.volume = 0.0
         self.delay = 0.0
 
-    def begin_step(self, backend: Backend, now: SurfaceStep, segments: SurfaceSegments) -> None:
+    def begin_step(
+        self, backend: Backend, now: SurfaceStep, segments: SurfaceSegments | SurfacePools
+    ) -> None:
         """Find what leaves each column that moves in a step."""
         whole, (begin, end) = segments.whole, now.interval
         self.lost = np.zeros(whole.count)
@@ -179,7 +185,7 @@ class MassLoss:
             # what is imposed leaves through the true length of the surface
             if (wave := self.forcing.mass_flux) is not None:
                 S = line.length_ratio
-                mass = (end - begin) * S * wave.mean_over(whole.centers()[columns], begin, end)
+                mass = ((end - begin) * S * wave.mean_over(line.places, begin, end)).ravel()
 
             # the part due of what heat has evaporated before
             if self.forcing.recoil is not None:
@@ -189,7 +195,7 @@ class MassLoss:
                 self.followed[columns] += vapor
                 mass = mass + vapor
             self.lost[columns] = mass / self.density
-        self.volume += whole.volume_of(self.lost)
+        self.volume += whole.volume_of(self.lost.reshape(whole.shape))
 
 
 def take_mass(
@@ -208,10 +214,11 @@ def take_mass(
         depth: (n,) below the line [m]. lost: (columns,) thickness that has left in the step [m].
         gone: (columns,) since the start [m]. spacing: of the particles [m]. density: [kg/m^3].
     """
-    count, inverse = line.count, 1.0 / line.widths[0]
+    count = line.count
     # particles within reach of the surface, by column
-    reach = backend.asarray(np.maximum(loops.TEMPERATURE_DEPTH * spacing, SHARE * gone))
-    grid: Constants = {"start": line.start[0], "inverse": inverse, "columns": float(count)}
+    reach = backend.asarray(np.maximum(TEMPERATURE_DEPTH * spacing, SHARE * gone))
+    grid: Constants = {"start": line.start, "inverse_width": line.inverse_widths}
+    grid |= {"columns": tuple(map(float, line.shape))}
     fields = {"x": now.position, "depth": depth, "flows": now.flows}
     column, found = backend.zeros(now.flows.shape[0], "index"), backend.zeros(count)
     backend.pointwise(loops.at_column, fields, column, **grid, reach=reach)
@@ -220,7 +227,8 @@ def take_mass(
     # the part s of them that is lost, bounded
     places = {"k": backend.asarray(np.arange(count), "index")}
     tables: Constants = {"row_start": members.row_start, "member": members.neighbor}
-    backend.pointwise(loops.thickness_of, places, found, **tables, V=now.volume, inverse=inverse)
+    area = {"inverse_area": line.inverse_area}
+    backend.pointwise(thickness_of, places, found, **tables, V=now.volume, **area)
     thickness = np.maximum(backend.to_host(found), MIN_VOLUME_RATIO * spacing)
     share = np.clip(lost / thickness, 1.0 - 1.0 / MIN_VOLUME_RATIO, 1.0 - MIN_VOLUME_RATIO)
     # what particles have now, as fields and as tables of their neighbors in the column
@@ -232,7 +240,7 @@ def take_mass(
     tables |= {"v_j": now.velocity, "share": backend.asarray(share), "columns": float(count)}
 
     # m', h' and v' of every particle from the values before, and the heat that leaves in all
-    tables |= {"inverse": inverse, "density": density}
+    tables |= {"density": density, **area}
     sums = (*(None for _ in new), "sum")
     (heat,) = backend.pointwise(recede, fields, (*new, None), reduce=sums, **tables)
     for values, target in zip(new, old, strict=True):

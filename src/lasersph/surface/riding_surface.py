@@ -41,7 +41,7 @@ class Ride(NamedTuple):
     growth: Array
 
 
-def ride(i, x, V, m, flows, lost, start, inverse, columns, base, ratio, step, spacing):
+def ride(i, x, V, m, flows, lost, start, inverse_width, columns, base, ratio, step, spacing):
     """Place [m], volume [m^2] and mass [kg] of a particle after its column has moved; its velocity
     [m/s], the growth of its volume with what it has lost [m^2/s], and its height in spacings.
 
@@ -49,23 +49,23 @@ def ride(i, x, V, m, flows, lost, start, inverse, columns, base, ratio, step, sp
         i: its number; the particles at the surface come first. lost: table of the thickness that
             has left each column [m]. base, ratio: tables of b [m] and H'/H.
     """
-    column = loops.column_of(x, flows, start, inverse, columns)
-    if column >= columns:
+    column = loops.column_of(x, flows, start, inverse_width, columns)
+    if column >= columns[0]:
         return 1.0 * x, 1.0 * V, 1.0 * m, 0.0 * x, 0.0 * V, 1.0, 1.0
     growth_ratio = ratio[column]
     place = vector(x[0], base[column] + growth_ratio * (x[1] - base[column]))
     # what evaporates leaves from the particle at the surface
-    left = lost[column] / inverse if i < columns else 0.0
+    left = lost[column] / inverse_width[0] if i < columns[0] else 0.0
     growth = ((growth_ratio - 1.0) * V + left) / step
-    height = growth_ratio * V * inverse / spacing
+    height = growth_ratio * V * inverse_width[0] / spacing
     return place, growth_ratio * V, growth_ratio * m, (place - x) / step, growth, height, height
 
 
-def is_uppermost(i, x, at_surface, start, inverse, columns):
+def is_uppermost(i, x, at_surface, start, inverse_width, columns):
     """1 for the first particle of a column; of coarse columns beside them the mark that it has."""
-    if (x[0] - start) * inverse >= columns:
+    if (x[0] - start[0]) * inverse_width[0] >= columns[0]:
         return 1.0 * at_surface
-    return 1.0 if i < columns else 0.0
+    return 1.0 if i < columns[0] else 0.0
 
 
 class RidingSurface(MovingSurface):
@@ -81,8 +81,7 @@ class RidingSurface(MovingSurface):
         super().find(position)
         number = self.backend.asarray(np.arange(position.shape[1]), "index")
         fields = {"i": number, "x": position, "at_surface": self.at_surface}
-        grid: Constants = self._grid | {"columns": float(self.line.count)}
-        self.backend.pointwise(is_uppermost, fields, self.at_surface, **grid)
+        self.backend.pointwise(is_uppermost, fields, self.at_surface, **self._grid)
 
     def ride(self, now: SurfaceStep) -> Ride:
         """Let what flows follow the line with its columns; `now` is changed in place."""
@@ -99,7 +98,7 @@ class RidingSurface(MovingSurface):
         fields = {"i": backend.asarray(np.arange(n), "index"), "x": now.position, "V": now.volume}
         fields |= {"m": now.mass, "flows": now.flows}
         tables: Constants = {"base": backend.asarray(base), "ratio": backend.asarray(ratio)}
-        tables |= {"lost": backend.asarray(self.loss.lost), "columns": float(line.count)}
+        tables |= {"lost": backend.asarray(self.loss.lost)}
         tables |= {"step": now.interval[1] - now.interval[0], "spacing": self.spacing}
         out = (now.position, now.volume, now.mass, *found, None, None)
         reduce = (*(None,) * 5, "min", "max")

@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from lasersph.surface.height_field import HeightField
 from lasersph.surface.smoothing import End, Ends
 
+Array = NDArray[np.float64]
 MIN_COLUMNS = 12
 """Columns of a part that moves, with those of its image. Accuracy: two smoothing lengths of six
 columns; fewer show no curvature and are held."""
@@ -76,17 +77,6 @@ class SurfaceSegments:
             self.is_molten[columns] = True
             self.parts.append(Segment(columns, self._line(columns, (left, right))))
 
-    def overrun(self, thick: NDArray[np.bool_]) -> NDArray[np.bool_]:
-        """(count,) columns over which melt advances from the thick ones, (count,), beside them."""
-        whole, found = self.whole, np.zeros(self.whole.count, bool)
-        for shift, first in ((1, 0), (-1, -1)):  # from the left, from the right
-            # melt higher than half a column over a column that does not move falls onto it
-            rise = np.roll(whole.height, shift) - whole.height
-            beside = np.roll(thick, shift) & (rise > ADVANCE_HEIGHT * whole.widths[0])
-            beside[first] &= whole.ends[0][0] == "periodic"
-            found |= beside
-        return found
-
     def update_heights(self) -> None:
         """Give the segments the heights of the whole line, and of the solid beside them."""
         whole = self.whole
@@ -105,6 +95,23 @@ class SurfaceSegments:
             )
             line.pins = ((low, high),)
 
+    @property
+    def slopes(self) -> Array:
+        """(1, count) slopes of the smoothed line."""
+        return self.whole.slopes
+
+    def heights_after(self, step: float, flux: tuple[Array]) -> Array:
+        """Heights (count,) after `step` [s], with what flows through the sides of the columns
+        [m^2/s], none through ends that are no period."""
+        found = self.whole.height.copy()
+        for columns, line in self.parts:
+            sides = flux[0][np.append(columns, columns[-1] + 1)]
+            # an end that is a wall, a plane of symmetry or the edge of a pool lets nothing through
+            if line.ends[0][0] != "periodic":
+                sides[[0, -1]] = 0.0
+            found[columns] = line.heights_after(step, sides)
+        return found
+
     def _line(self, columns: NDArray[np.int64], ends: Ends) -> HeightField:
         """A line of its own; smoothing is prepared once for each length and kind of ends."""
         key, whole = (columns.size, ends), self.whole
@@ -117,3 +124,17 @@ class SurfaceSegments:
         line = self._lines[key].copy()
         line.start = (whole.start[0] + float(columns[0]) * whole.widths[0],)
         return line
+
+
+def overrun(whole: HeightField, thick: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """(count,) columns over which melt advances from the thick ones, (count,), beside them."""
+    marks, found = thick.reshape(whole.shape), np.zeros(whole.shape, bool)
+    for axis, width in enumerate(whole.widths):
+        for shift, first in ((1, 0), (-1, -1)):  # from the lower side, from the upper one
+            # melt higher than half a column over a column that does not move falls onto it
+            rise = np.roll(whole.height, shift, axis) - whole.height
+            beside = np.roll(marks, shift, axis) & (rise > ADVANCE_HEIGHT * width)
+            if whole.ends[axis][0] != "periodic":
+                np.moveaxis(beside, axis, 0)[first] = False
+            found |= beside
+    return found.ravel()

@@ -1,24 +1,31 @@
 """Stress and pressure along a surface that moves, from velocity and temperature there.
 
-    tangential stress     tau = t . (2 mu D) . n = d gamma/ds             [Demuth2020, eq. (15)]
-    shear rate            du_t/dn = tau/mu - n . dv/ds
-    pressure              p_b = p_e + gamma kappa - 2 mu grad_s . v
+    tangential stress     P (2 mu D n) = grad_s gamma                     [Demuth2020, eq. (15)]
+    shear rate            s = grad_s gamma/mu - G n,   G = P grad v
+    pressure              p_b = p_e + gamma kappa - 2 mu grad_s . v,   grad_s . v = tr G
 
-with grad_s . v = t . dv/ds, and u_r/r more in a section (r, z), whose rings widen as they go
-outward; with the recoil of the vapor in p_e, and mu that at the temperature of the surface. What
-enters is smoothed as slope and curvature are.
+with P = I - n n and derivatives along the columns. On a line s = du_t/dn t, G n = (n . dv/ds) t and
+grad_s . v = t . dv/ds, and u_r/r more in a section (r, z), whose rings widen as they go outward. On
+a grid of columns, with r_x = (1, 0, eta_x), r_y = (0, 1, eta_y) and the cofactors c_ab of their
+products r_a . r_b, which are not orthogonal on a slope,
+
+    grad_s f = c_ab f_a r_b / S^2,   c = [[1 + eta_y^2, -eta_x eta_y], [-eta_x eta_y, 1 + eta_x^2]]
+
+The recoil of the vapor is part of p_e, and mu that at the temperature of the surface. What enters
+is smoothed as slope and curvature are.
 """
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from itertools import product
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from lasersph.surface.flat_surface import surface_tension_table
 from lasersph.surface.forcing import SurfaceForcing
-from lasersph.surface.height_field import HeightField, length_ratio
+from lasersph.surface.height_field import length_ratio
 from lasersph.surface.pressure_condition import SurfaceLiquid
 from lasersph.surface.smoothing import EVEN_PARITY, ODD_PARITY
 
@@ -35,11 +42,50 @@ def normal_stress(viscosity: HostArray, along: HostArray) -> HostArray:
     return -2.0 * viscosity * along
 
 
-class StressAlong(NamedTuple):
-    """Values along a line (m,), by the names of `loops.surface_values`.
+class Smoothed(Protocol):
+    """Heights over columns that move, whose smoothed values may go on beyond them."""
 
-    T_line, gradient: temperature [K] and its slope along the surface [K/m]. shear, strain_rate:
-    du_t/dn and grad_s . v, of a plane du_t/ds [1/s]. p_b: pressure [Pa].
+    is_axisymmetric: bool
+
+    @property
+    def places(self) -> tuple[HostArray, ...]:
+        """Middle of the columns along each axis [m]."""
+        ...
+
+    @property
+    def support_places(self) -> tuple[HostArray, ...]:
+        """Places of the smoothed values [m]."""
+        ...
+
+    @property
+    def slopes(self) -> HostArray:
+        """(d - 1, ...) slopes of the smoothed heights at the columns."""
+        ...
+
+    @property
+    def curvature(self) -> HostArray:
+        """Their curvature there [1/m]."""
+        ...
+
+    def smooth(self, values: HostArray, parity: Any = ..., at_pins: float | None = ...) -> HostArray:
+        """Smoothed values of the columns."""
+        ...
+
+    def derivative(self, smoothed: HostArray, parity: Any = ..., axis: int = ...) -> HostArray:
+        """Derivative of smoothed values along an axis at the columns."""
+        ...
+
+    def at_columns(self, smoothed: HostArray) -> HostArray:
+        """Smoothed values at the columns."""
+        ...
+
+
+class StressAlong(NamedTuple):
+    """Values along a surface (m,), by the names of `loops.surface_values`.
+
+    T_line, gradient: temperature [K] and its slope along the surface, on a grid the size of it
+    [K/m]. shear: (d - 1, m) du_t/dn of a line, of a grid the parts of s along x and y [1/s].
+    strain_rate: grad_s . v, of a plane du_t/ds [1/s]. p_b: pressure [Pa].
     """
 
     T_line: HostArray
@@ -49,14 +95,12 @@ class StressAlong(NamedTuple):
     p_b: HostArray
 
 
-PARITIES = {
-    "T_line": EVEN_PARITY,
-    "gradient": ODD_PARITY,
-    "shear": ODD_PARITY,
-    "strain_rate": EVEN_PARITY,
-    "p_b": EVEN_PARITY,
-}
-"""How each goes on beyond a plane of symmetry."""
+def cofactors(slopes: HostArray) -> HostArray:
+    """(d - 1, d - 1, m) cofactors of r_a . r_b from slopes (d - 1, m); 1 of a line."""
+    if len(slopes) == 1:
+        return np.ones((1, *slopes.shape))
+    x, y = slopes
+    return np.array([[1.0 + y * y, -x * y], [-x * y, 1.0 + x * x]])
 
 
 class SurfaceStress:
@@ -74,56 +118,78 @@ class SurfaceStress:
             self._gamma_table = surface_tension_table(liquid.material)
 
     def along(
-        self,
-        line: HeightField,
-        x: HostArray,
-        interval: tuple[float, float],
-        velocity: HostArray,
-        T: HostArray,
+        self, line: Smoothed, interval: tuple[float, float], velocity: HostArray, T: HostArray
     ) -> tuple[StressAlong, float]:
         """Stress along a part that moves, and the largest surface tension there [N/m].
 
         Args:
-            x: (m,) places of its columns [m]. interval: begin and end of the step [s].
-            velocity: (2, m) of the melt at the surface [m/s]. T: (m,) there [K].
+            interval: begin and end of the step [s]. velocity: (d, m) of the melt at the surface of
+                its columns [m/s]. T: (m,) there [K].
         """
         liquid, forcing = self.liquid, self.forcing
+        slopes = line.slopes
+        axes = range(len(slopes))
+        S, c = length_ratio(slopes), cofactors(slopes)
 
-        # grad_s . v and n . dv/ds of the smoothed velocity
-        u = line.smooth(velocity[0], ODD_PARITY, 0.0)
-        w = line.smooth(velocity[1], EVEN_PARITY, 0.0)
-        (slope,) = slopes = line.slopes
-        S = length_ratio(slopes)
-        u_x, w_x = line.derivative(u, ODD_PARITY), line.derivative(w)
-        along = (u_x + slope * w_x) / S**2
-        across = (-slope * u_x + w_x) / S**2
+        # derivatives of the smoothed velocity along each axis, [a][b] of the part b
+        parities = [tuple(ODD_PARITY if a == b else EVEN_PARITY for a in axes) for b in (*axes, -1)]
+        smoothed = [line.smooth(v, one, 0.0) for v, one in zip(velocity, parities, strict=True)]
+        change = [
+            [line.derivative(v, one, axis) for v, one in zip(smoothed, parities, strict=True)]
+            for axis in axes
+        ]
+
+        # grad_s . v = c_ab r_b . v_a/S^2, and n . v_a/S
+        along = 0.0
+        for a, b in product(axes, axes):
+            along = along + c[a, b] * (change[a][b] + slopes[b] * change[a][-1])
+        along = along / S**2
+        across = []
+        for a in axes:
+            lean = 0.0
+            for b in axes:
+                lean = lean - slopes[b] * change[a][b]
+            across.append((lean + change[a][-1]) / S**2)
         if line.is_axisymmetric:
-            along = along + u / line.centers()
+            along = along + line.at_columns(smoothed[0]) / line.places[0]
 
         # temperature of the surface: that of the melt, or a given one
         T = line.smooth(T)
         if (given := forcing.temperature) is not None:
-            T = np.full(x.size, given.mean)
-            T = T if given.drive is None else T + given.drive.mean_over(x, *interval)
+            T = np.full(T.shape, given.mean)
+            if given.drive is not None:
+                T = T + given.drive.mean_over(line.support_places, *interval)
 
-        # tau = d gamma/ds
-        tau: HostArray | float = 0.0
-        if self.has_stress:
-            tau = line.derivative(np.interp(T, *self._gamma_table)) / S
+        # s from grad gamma/S and n . v_a/S, along the axes of a grid
+        gamma = np.interp(T, *self._gamma_table) if self.has_stress else 0.0 * T
+        T_here = line.at_columns(T)
+        viscosity = liquid.viscosity * liquid.relative_viscosity_at(T_here)
+        shear = np.array(
+            [
+                shear_rate(line.derivative(gamma, axis=a) / S, viscosity, across[a])
+                for a in axes
+            ]
+        )
+        gradient = np.array([line.derivative(T, axis=a) / S for a in axes])
+        if len(slopes) > 1:
+            # c_ab is symmetric
+            size = np.einsum("abm,am,bm->m", c, gradient, gradient)
+            gradient = np.sqrt(np.maximum(size, 0.0))[None]
+            shear = np.einsum("abm,am->bm", c, shear) / S
 
-        # p_b = gamma kappa - 2 mu t . dv/ds + p_e, with recoil in p_e
-        tension = liquid.material.surface_tension_at(T)
-        viscosity = liquid.viscosity * liquid.relative_viscosity_at(T)
+        # p_b = gamma kappa - 2 mu grad_s . v + p_e, with recoil in p_e
+        tension = liquid.material.surface_tension_at(T_here)
         pressure = tension * line.curvature + normal_stress(viscosity, along)
         if (drive := forcing.pressure) is not None:
-            pressure = pressure + drive.mean_over(x, *interval)
+            pressure = pressure + drive.mean_over(line.places, *interval)
         if forcing.recoil is not None:
-            pressure = pressure + forcing.recoil(T)
+            pressure = pressure + forcing.recoil(T_here)
         found = StressAlong(
-            T_line=T,
-            gradient=line.derivative(T) / S,
-            shear=shear_rate(tau, viscosity, across),
+            T_line=T_here,
+            gradient=gradient.reshape(T_here.shape),
+            shear=shear,
             strain_rate=along,
             p_b=pressure,
         )
         return found, float(np.max(tension))
+

@@ -5,11 +5,14 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from lasersph.boundaries.initial_surface import MIN_LAYERS, STEEPEST
 from lasersph.input import format_quantity
 
 if TYPE_CHECKING:
+    from lasersph.surface.height_field import HeightField
+    from lasersph.surface.pools import SurfacePools
     from lasersph.surface.segments import SurfaceSegments
 
 STEEPEST_EDGE = 2.0
@@ -17,7 +20,9 @@ STEEPEST_EDGE = 2.0
 below, stands at up to 52 degrees in textures; above 63 it would fall over its own foot."""
 
 
-def validity_error(segments: SurfaceSegments, bottom: float, spacing: float) -> str:
+def validity_error(
+    segments: SurfaceSegments | SurfacePools, bottom: float, spacing: float
+) -> str:
     """Slope above 1, above 2 at the edge of a pool, or too little liquid above the wall at
     z = `bottom` [m]; empty for none.
 
@@ -25,20 +30,18 @@ def validity_error(segments: SurfaceSegments, bottom: float, spacing: float) -> 
     it. Elsewhere a wave is about to break, or a jet to leave.
     """
     line = segments.whole
-    slope, thickness = np.abs(line.slopes[0]), line.height - bottom
+    slope, thickness = np.hypot.reduce(segments.slopes), line.height.ravel() - bottom
     thin = int(np.argmin(thickness))
     if slope.max() > STEEPEST:
         # columns with solid within a smoothing length: the edge of a pool, where steeper melt is
         # computed
-        window = np.ones(2 * round(line.cutoff / line.widths[0]) + 1)
-        solid_near = np.convolve(~segments.is_molten, window)[window.size // 2 :][: line.count]
-        limit = np.where(solid_near > 0.0, STEEPEST_EDGE, STEEPEST)
+        solid_near = near_solid(segments)
+        limit = np.where(solid_near, STEEPEST_EDGE, STEEPEST)
         steep = int(np.argmax(slope / limit))
 
         # the steepest place, measured by the limit that holds there
         if slope[steep] > limit[steep]:
-            at = format_quantity(line.centers()[steep], "m", 3)
-            place = f"the slope {slope[steep]:.3g} at x = {at}"
+            place = f"the slope {slope[steep]:.3g} at {place_of(line, steep)}"
             what = f"the surface has {place}"
             if solid_near[steep]:
                 what = (
@@ -53,8 +56,28 @@ def validity_error(segments: SurfaceSegments, bottom: float, spacing: float) -> 
     # the shallowest place
     if thickness[thin] < MIN_LAYERS * spacing:
         return (
-            f"the liquid is {format_quantity(thickness[thin], 'm', 3)} thick at x = "
-            f"{format_quantity(line.centers()[thin], 'm', 3)}, less than {MIN_LAYERS} spacings of "
+            f"the liquid is {format_quantity(thickness[thin], 'm', 3)} thick at "
+            f"{place_of(line, thin)}, less than {MIN_LAYERS} spacings of "
             "particles; take a finer spacing, a weaker drive or an earlier end"
         )
     return ""
+
+
+def near_solid(segments: SurfaceSegments | SurfacePools) -> NDArray[np.bool_]:
+    """(count,) whether a column lies within a smoothing length of solid along the axes."""
+    line = segments.whole
+    found = ~segments.is_molten.reshape(line.shape)
+    for axis, width in enumerate(line.widths):
+        window = np.ones(2 * round(line.cutoff / width) + 1)
+        found = np.apply_along_axis(
+            lambda marks: np.convolve(marks, window)[window.size // 2 :][: marks.size] > 0.0,
+            axis,
+            found,
+        )
+    return found.ravel()
+
+
+def place_of(line: HeightField, column: int) -> str:
+    """Place of a column in words, "x = ..." and y of a grid."""
+    names = zip("xy", (places.ravel() for places in line.places), strict=False)
+    return ", ".join(f"{name} = {format_quantity(at[column], 'm', 3)}" for name, at in names)

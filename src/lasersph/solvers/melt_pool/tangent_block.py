@@ -8,6 +8,7 @@ given, and no pair across counts for it; heat finds its face in the tangent at e
 from __future__ import annotations
 
 from dataclasses import replace
+from math import prod
 
 import numpy as np
 
@@ -94,8 +95,8 @@ class TangentBlock(Block):
         backend.pointwise(scaled_flux, fields, rules["flux"], factor=factor)
 
     def surface_area(self) -> float:
-        """True length of the surface [m]."""
-        low, high = self.conditions.box[0]
+        """True area of the surface [m^(d-1)]."""
+        from_above = prod(high - low for low, high in self.conditions.box[:-1])
         length_ratio = self.surface.length_ratio()
         assert length_ratio is not None
-        return (high - low) * float(np.mean(self.backend.to_host(length_ratio)))
+        return from_above * float(np.mean(self.backend.to_host(length_ratio)))

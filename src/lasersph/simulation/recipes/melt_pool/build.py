@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lasersph.boundaries.flow_conditions import FREE
+from lasersph.boundaries.initial_surface import InitialSurface
 from lasersph.boundaries.settings import DIRICHLET
 from lasersph.case import Case
 from lasersph.materials.viscosity import relative_viscosity_table
@@ -59,8 +60,7 @@ def with_flow(case: Case, settings: MeltPoolSettings, layers: Layers, heat: Cond
         weighing=weighing,
     )
     # What flows stays among the fine columns.
-    (x,) = layers.fine_bounds
-    box = (x, (-float(layers.thickness.sum()), 0.0))
+    box = (*layers.fine_bounds, (-float(layers.thickness.sum()), 0.0))
     conditions = FaceConditions(
         box, case.boundaries, case.flow, case.initial_temperature, has_axis=is_section
     )
@@ -149,40 +149,68 @@ def with_flow(case: Case, settings: MeltPoolSettings, layers: Layers, heat: Cond
     return solver
 
 
-def _surface_line(case: Case, conditions: FaceConditions, columns: int) -> HeightField:
-    """The line of a surface that moves, at its heights at the start.
+def _surface_line(case: Case, conditions: FaceConditions, fine_surface: int) -> HeightField:
+    """Columns of a surface that moves, at their heights at the start.
 
     It goes on as the flow does beyond its ends; at walls it is pinned at its height there.
     """
-    x, _ = conditions.box
-    width = (x[1] - x[0]) / columns
+    sides = conditions.box[:-1]
+    # columns are squares: as many along each axis as its length says
+    total = np.prod([high - low for low, high in sides])
+    width = float((total / fine_surface) ** (1.0 / len(sides)))
+    shape = tuple(round((high - low) / width) for low, high in sides)
+    widths = tuple((high - low) / n for (low, high), n in zip(sides, shape, strict=True))
     kinds: dict[str, End] = {"symmetry": "mirror", "free-slip": "mirror", "periodic": "periodic"}
-    left, right = (conditions.flow_kind(side) for side in ("left", "right"))
-    ends = kinds.get(left, "pinned"), kinds.get(right, "pinned")
+    ends = tuple(
+        (kinds.get(conditions.flow_kind(a), "pinned"), kinds.get(conditions.flow_kind(b), "pinned"))
+        for a, b in conditions.faces[:-1]
+    )
     line = HeightField(
-        *((x[0],), (width,), (columns,), (ends,), cutoff_of(width)),
+        *(tuple(low for low, _ in sides), widths, shape, ends, cutoff_of(max(widths))),
         is_axisymmetric=case.geometry.is_axisymmetric,
     )
     start = case.initial_surface
-    # Heights at the start; at walls the ends of the line stay where they are.
+    # Heights at the start; at walls the ends stay where they are.
     if start is not None:
-        is_ring = case.geometry.is_axisymmetric
-        line.height = start.at(line.centers(), width, is_ring=is_ring)
-        low, high = (float(start.at(np.array(end))) for end in x)
-        line.pins = ((low, high),)
+        line.height = _mean_heights(case, line.places, widths)
+        line.pins = tuple(
+            tuple(_heights_at(start, line, axis, end) for end in pair)
+            for axis, pair in enumerate(sides)
+        )
     return line
+
+
+def _heights_at(
+    start: InitialSurface, line: HeightField, axis: int, end: float
+) -> float | NDArray[np.float64]:
+    """Heights at an end of an axis [m], one for each line of columns that ends there."""
+    if len(line.shape) == 1:
+        return float(start.at(np.array(end)))
+    along = line.centers(1 - axis)
+    places = [along, along]
+    places[axis] = np.full(along.size, end)
+    return start.shape_at(places[0], places[1])
+
+
+def _mean_heights(
+    case: Case, places: tuple[NDArray[np.float64], ...], widths: tuple[float, ...]
+) -> NDArray[np.float64]:
+    """Heights at the start in the mean over columns around places [m]."""
+    start = case.initial_surface
+    assert start is not None
+    if len(places) == 1:
+        return start.at(places[0], widths[0], is_ring=case.geometry.is_axisymmetric)
+    return start.mean_over_columns((places[0], places[1]), (widths[0], widths[1]))
 
 
 def _raise_particles(case: Case, body: Body, static: StaticParticleData, line: HeightField) -> None:
     """Stretch the columns of particles of a box to the surface at the start."""
-    start = case.initial_surface
-    if start is None or case.flow is None:
+    if case.initial_surface is None or case.flow is None:
         return
     count, depth = body.count, case.domain.depth
     # Columns become longer in proportion, so that volume and mass do with them.
-    x, z = body.filling.position[:, :count]
-    is_ring = case.geometry.is_axisymmetric
-    length_ratio = 1.0 + start.at(x, line.widths[0], is_ring=is_ring) / depth
+    *places, z = body.filling.position[:, :count]
+    length_ratio = 1.0 + _mean_heights(case, tuple(places), line.widths) / depth
     z[:] = length_ratio * (z + depth) - depth
     static.volume[:] *= length_ratio
     body.particles.set("mass", body.backend.to_host(body.particles["mass"]) * length_ratio)

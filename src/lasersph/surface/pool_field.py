@@ -1,0 +1,346 @@
+"""`PoolField`: heights over a pool of any shape, on a grid of two axes.
+
+The smoothed field F eta of a pool lives on its columns and on a ring of two more around them, which
+have no height of their own: the functional itself continues the field there,
+
+    sum over columns (f - eta)^2 + sum_j binom(n, j) s^(2n) sum (D_x^j D_y^(n-j) f)^2
+        + 100 sum over rim sides (f_side - pin)^2,        s = lambda_c/(2 pi dx)
+
+[Whittaker1923], so that all derivatives at the columns are central ones, and no rim needs a rule of
+its own. Differences count where all of their columns lie in pool and ring. The rim is a staircase
+of sides, each pinned at the height of the solid beside it; f_side is the cubic through the two
+columns at either side. Across planes of symmetry the field goes on as its mirror image.
+"""
+
+from __future__ import annotations
+
+from functools import cached_property
+from math import comb, pi, prod, sqrt
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lasersph.surface.height_field import FIRST, SECOND, HeightField, curvature_of, length_ratio
+from lasersph.surface.smoothing import (
+    EVEN_PARITY,
+    ODD_PARITY,
+    ORDER,
+    PIN_WEIGHT,
+    PINNED_ORDER,
+    REFINEMENTS,
+    multinomial,
+    orders_along,
+)
+
+if TYPE_CHECKING:
+    from scipy.sparse import csr_matrix
+    from scipy.sparse.linalg import SuperLU
+
+Array = NDArray[np.float64]
+Numbers = NDArray[np.int64]
+Parity = tuple[float, float]
+RING = 2
+"""Columns around a pool to which its field goes on. Geometry: derivatives of fourth order reach two
+columns far, and so do blocks of differences of the fourth order around a column."""
+BEYOND_SIDE = np.array([-1.0, 9.0, 9.0, -1.0]) / 16.0
+"""Value at a side from the two columns at either side of it, of the cubic through them."""
+RING_WEIGHT = 1e-9
+"""Weight of a value 0 in the ring. Rounding: in an arm of one column across differences and pins
+leave the cubic y (y^2 - 1/4) free there."""
+
+
+class Axis:
+    """Columns along one axis, and what is seen beyond its ends.
+
+    Attributes:
+        low: first place that is known; places count from it. column: column that is seen at each
+            place, -1 for none; beyond walls they go on by `RING`. is_mirrored: whether it is an
+            image. is_inside: whether the place itself lies in the domain.
+    """
+
+    def __init__(self, count: int, ends: tuple[str, str]) -> None:
+        margin = RING + ORDER
+        self.low, self.period = -margin, count if ends[0] == "periodic" else 0
+        place = np.arange(-margin, count + margin)
+        self.is_inside = (place >= 0) & (place < count)
+        self.column, self.is_mirrored = place.copy(), np.zeros(place.size, bool)
+        for is_beyond, end, image in (
+            (place < 0, ends[0], -1 - place),
+            (place >= count, ends[1], 2 * count - 1 - place),
+        ):
+            if end == "periodic":
+                self.column[is_beyond] %= count
+            elif end == "mirror":
+                self.column[is_beyond] = image[is_beyond]
+                self.is_mirrored |= is_beyond
+            else:
+                # the ring around a pool that ends at a wall lies beyond it
+                depth = np.where(place < 0, -place, place - count + 1)
+                self.column[is_beyond & (depth > RING)] = -RING - 1
+                self.is_inside |= is_beyond & (depth <= RING)
+
+    def seen(self, place: Numbers) -> Numbers:
+        """Column at places, less than -RING for none."""
+        return self.column[place - self.low]
+
+    def sign(self, place: Numbers, parity: float) -> Array:
+        """Sign with which a field of a parity is seen at places."""
+        return np.where(self.is_mirrored[place - self.low], parity, 1.0)
+
+    def blocks(self, columns: Numbers, order: int) -> tuple[Numbers, Array]:
+        """Places (blocks, order + 1) of the differences of an order around columns, and the share
+        (blocks,) with which each counts: planes of symmetry leave half of those across them."""
+        first, last = int(columns.min()) - RING - order, int(columns.max()) + RING
+        low, high = self.low, self.low + self.column.size - 1
+        begin = np.arange(max(first, low), min(last, high - order) + 1)
+        if self.period:
+            begin = np.arange(self.period)
+        place = begin[:, None] + np.arange(order + 1)
+        inside = self.is_inside[place - self.low] if not self.period else np.ones(place.shape, bool)
+        place, inside = place[inside.any(axis=1)], inside[inside.any(axis=1)]
+        return place, np.where(inside.all(axis=1), 1.0, sqrt(0.5))
+
+
+class PoolField:
+    """Heights over the columns of a pool.
+
+    Args:
+        whole: the grid. columns: (m,) numbers of those of the pool.
+
+    Attributes:
+        height: (m,) [m]. columns: (m,). count: m. rim: (sides,) number of the column of the solid
+            beside each side of the rim, -1 for a wall.
+    """
+
+    is_axisymmetric = False
+
+    def __init__(self, whole: HeightField, columns: Numbers) -> None:
+        self.whole, self.columns, self.count = whole, columns, columns.size
+        self.widths, self.cutoff = whole.widths, whole.cutoff
+        self.axes = tuple(Axis(n, ends) for n, ends in zip(whole.shape, whole.ends, strict=True))
+        self._place = np.array(np.unravel_index(columns, whole.shape))
+        self.height = whole.height.ravel()[columns]
+
+        # numbers of columns and ring, in a grid that is wider by the ring
+        padded = tuple(n + 2 * RING for n in whole.shape)
+        steps = np.arange(-RING, RING + 1)
+        around = self._seen(
+            self._place[0][:, None, None] + steps[:, None],
+            self._place[1][:, None, None] + steps[None, :],
+        )
+        self._number = np.full(padded, -1)
+        own = tuple(self._place + RING)
+        self._number[around[..., 0], around[..., 1]] = 0
+        self._number[own] = -1
+        ring = np.argwhere(self._number == 0)
+        self._number[tuple(ring.T)] = self.count + np.arange(len(ring))
+        self._number[own] = np.arange(self.count)
+        self.size = self.count + len(ring)
+        self._support = np.concatenate([self._place.T, ring - RING])
+        # (m, 5, 5) of the columns around each
+        self._around = self._number[around[..., 0], around[..., 1]]
+        self._pins = self._rim_sides()
+        self.rim = self._pins[0]
+        self.at_pins = self.wall_heights = self._heights_at_walls()
+        self._factors: dict[tuple[Parity, bool], tuple[csr_matrix, csr_matrix, SuperLU]] = {}
+
+    @property
+    def places(self) -> tuple[Array, ...]:
+        """(m,) each, middle of the columns along x and y [m]."""
+        return tuple(place[: self.count] for place in self.support_places)
+
+    @property
+    def support_places(self) -> tuple[Array, ...]:
+        """(size,) each, that of columns and ring [m]."""
+        grid = zip(self.whole.start, self.widths, self._support.T, strict=True)
+        return tuple(start + width * (place + 0.5) for start, width, place in grid)
+
+    def at_columns(self, smoothed: Array) -> Array:
+        """Smoothed values at the columns."""
+        return smoothed[: self.count]
+
+    def smooth(
+        self, values: Array, parity: Parity = (EVEN_PARITY,) * 2, at_pins: float | None = None
+    ) -> Array:
+        """(size,) F of values (m,) at the columns.
+
+        Args:
+            parity: of the field along each axis. at_pins: value that it has at the rim; None where
+                it has none.
+        """
+        pins = None if at_pins is None else np.full(self.rim.size, at_pins)
+        return self._solve(values, parity, pins)
+
+    @property
+    def smoothed(self) -> Array:
+        """(size,) F eta [m]."""
+        return self._solve(self.height, (EVEN_PARITY,) * 2, self.at_pins)
+
+    def derivative(
+        self, smoothed: Array, parity: Parity = (EVEN_PARITY,) * 2, axis: int = 0
+    ) -> Array:
+        """(m,) derivative of smoothed values (size,) along an axis."""
+        return self._stencil(FIRST, smoothed, parity, axis) / self.widths[axis]
+
+    def gradient(self, smoothed: Array) -> Array:
+        """(2, m) derivatives of an even field along both axes."""
+        return np.array([self.derivative(smoothed, axis=axis) for axis in (0, 1)])
+
+    @property
+    def slopes(self) -> Array:
+        """(2, m) slopes of the smoothed field."""
+        return self.gradient(self.smoothed)
+
+    @property
+    def length_ratio(self) -> Array:
+        """(m,) S = sqrt(1 + |grad eta|^2) of the smoothed field."""
+        return length_ratio(self.slopes)
+
+    @property
+    def curvature(self) -> Array:
+        """(m,) kappa of the smoothed field [1/m], > 0 on a crest."""
+        f, even = self.smoothed, (EVEN_PARITY,) * 2
+        second = [
+            self._stencil(SECOND, f, even, axis) / self.widths[axis] ** 2 for axis in (0, 1)
+        ]
+        # eta_xy by the product of both first differences
+        weights = FIRST[:, None] * FIRST[None, :]
+        mixed = np.sum(weights * f[self._around], axis=(1, 2)) / prod(self.widths)
+        return curvature_of(self.gradient(f), second, [mixed])
+
+    def damp_short_waves(self, share: float) -> None:
+        """Take `share` (at most 1) of the way to the smoothed field of the same volume."""
+        change = self.at_columns(self.smoothed) - self.height
+        # no volume may come or go: the change summed is taken back, none of it at the rim
+        change -= self._raised * (np.sum(change) / np.sum(self._raised))
+        self.height = self.height + min(share, 1.0) * change
+
+    @cached_property
+    def _raised(self) -> Array:
+        """Smoothed field of heights 1 over a rim at 0, by which the volume is kept."""
+        return self.at_columns(self.smooth(np.ones(self.count), at_pins=0.0))
+
+    def _seen(self, x: Numbers, y: Numbers) -> Numbers:
+        """Places (..., 2) of the columns seen at places, in the grid that is wider by the ring."""
+        found = (self.axes[0].seen(x), self.axes[1].seen(y))
+        return np.stack(np.broadcast_arrays(*found), axis=-1) + RING
+
+    def _stencil(self, weights: Array, f: Array, parity: Parity, axis: int) -> Array:
+        """(m,) sum of five values along an axis with weights."""
+        middle = RING
+        line = self._around[:, :, middle] if axis == 0 else self._around[:, middle, :]
+        place = self._place[axis][:, None] + np.arange(-RING, RING + 1)
+        return np.sum(weights * self.axes[axis].sign(place, parity[axis]) * f[line], axis=1)
+
+    def _rim_sides(self) -> tuple[Numbers, Numbers, Numbers, Numbers]:
+        """Number of the solid column beside each side of the rim, -1 for a wall; axis of the side,
+        and the places (sides, 4) of the columns at either side of it along x and y."""
+        beside, axes, places = [], [], []
+        for axis in (0, 1):
+            for outward in (-1, 1):
+                place = self._place.copy()
+                place[axis] += outward
+                seen = self._seen(*place)
+                is_rim = self._number[seen[:, 0], seen[:, 1]] >= self.count
+                column = seen[is_rim] - RING
+                is_wall = np.any((column < 0) | (column >= self.whole.shape), axis=1)
+                number = np.where(is_wall, -1, column @ (self.whole.shape[1], 1))
+                beside.append(number)
+                axes.append(np.full(number.size, axis))
+                steps = np.zeros((2, 1, 4), int)
+                steps[axis, 0] = outward * np.arange(-1, 3)
+                places.append(self._place[:, is_rim, None] + steps)
+        both = np.concatenate(places, axis=1)
+        return np.concatenate(beside), np.concatenate(axes), both[0], both[1]
+
+    def _heights_at_walls(self) -> Array:
+        """(sides,) heights at which walls hold the surface, 0 at other sides [m]."""
+        _, axes, x, y = self._pins
+        found = np.zeros(axes.size)
+        for axis, places in enumerate((x, y)):
+            # the second place of a side lies in the pool, the third beyond it
+            other = (y, x)[axis][:, 1]
+            for end, pin in enumerate(self.whole.pins[axis]):
+                count = self.whole.shape[axis]
+                beyond = places[:, 2] < 0 if end == 0 else places[:, 2] >= count
+                is_wall = (self.rim < 0) & (axes == axis) & beyond
+                heights = np.broadcast_to(pin, (self.whole.shape[1 - axis],))
+                found[is_wall] = heights[other[is_wall]]
+        return found
+
+    def _rows(self, x: Numbers, y: Numbers, values: Array, parity: Parity) -> csr_matrix:
+        """Matrix with a row of values (rows, k) at places (rows, k) along x and y for each row all
+        of whose places are known."""
+        from scipy.sparse import csr_matrix  # few runs have a grid of columns
+
+        seen = self._seen(x, y)
+        number = self._number[seen[..., 0], seen[..., 1]]
+        number = np.where(np.all(seen >= 0, axis=-1), number, -1)
+        signs = self.axes[0].sign(x, parity[0]) * self.axes[1].sign(y, parity[1])
+        is_known = np.all(number >= 0, axis=1)
+        number, values = number[is_known], (signs * values)[is_known]
+        row = np.repeat(np.arange(len(number)), number.shape[1])
+        return csr_matrix((values.ravel(), (row, number.ravel())), shape=(len(number), self.size))
+
+    def _differences(self, orders: tuple[int, ...], parity: Parity) -> csr_matrix:
+        """Differences of orders along x and y, scaled so that waves of lambda_c keep half."""
+        scale = sqrt(multinomial(orders)) * prod(
+            (self.cutoff / (2.0 * pi * width)) ** one
+            for width, one in zip(self.widths, orders, strict=True)
+        )
+        (x, share_x), (y, share_y) = (
+            axis.blocks(place, one)
+            for axis, place, one in zip(self.axes, self._place, orders, strict=True)
+        )
+        weights = np.multiply.outer(*(binomial(one) for one in orders))
+        shape = len(x), len(y), *weights.shape
+        place_x = np.broadcast_to(x[:, None, :, None], shape).reshape(-1, weights.size)
+        place_y = np.broadcast_to(y[None, :, None, :], shape).reshape(-1, weights.size)
+        share = np.multiply.outer(share_x, share_y).reshape(-1, 1)
+        return self._rows(place_x, place_y, scale * share * weights.ravel(), parity)
+
+    def _solve(self, values: Array, parity: Parity, pins: Array | None) -> Array:
+        """F of values with heights (sides,) at the rim; its factors are made at the first call."""
+        key = parity, pins is not None
+        if key not in self._factors:
+            self._factors[key] = self._matrices(parity, passes_pins=pins is not None)
+        A, P, inverse = self._factors[key]
+        right = np.zeros(self.size)
+        right[: self.count] = values
+        if pins is not None:
+            right += PIN_WEIGHT * (P.T @ pins)
+        f = np.zeros(self.size)
+        # iterative refinement: each pass solves for the residual of the one before
+        for _ in range(1 + REFINEMENTS):
+            f = f + inverse.solve(right - A @ f)
+        return f
+
+    def _matrices(
+        self, parity: Parity, *, passes_pins: bool
+    ) -> tuple[csr_matrix, csr_matrix, SuperLU]:
+        """Matrix of the normal equations, that of the values at the rim, and factors."""
+        from scipy.sparse import diags
+        from scipy.sparse.linalg import splu
+
+        weight = np.full(self.size, RING_WEIGHT)
+        weight[: self.count] = 1.0
+        A = diags(weight).tocsr()
+        order = PINNED_ORDER if self.rim.size else ORDER
+        for orders in orders_along(2, order):
+            D = self._differences(orders, parity)
+            A = A + D.T @ D
+        _, _, x, y = self._pins
+        P = self._rows(x, y, np.broadcast_to(BEYOND_SIDE, x.shape), parity)
+        if passes_pins:
+            A = A + PIN_WEIGHT * (P.T @ P)
+        options = {"SymmetricMode": True}
+        factors = splu(
+            A.tocsc(), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options=options
+        )
+        return A, P, factors
+
+
+def binomial(order: int) -> Array:
+    """Weights of the difference of an order."""
+    return np.array([(-1.0) ** j * comb(order, j) for j in range(order + 1)])
