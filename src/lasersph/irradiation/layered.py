@@ -7,7 +7,7 @@ cell means over the column), A_i its lateral cross-section, s_i the exact share 
 stays in its depth cell [Demuth2020, eq. (8)], T_s the temperature of the surface over it at the new
 time [Demuth2020, eq. (78)].
 
-Particles that moved (2-D) take the light by what lies above them now, see `absorbing_cells`; light
+Particles that moved take the light by what lies above them now, see `absorbing_cells`; light
 that the surface absorbs is taken by the particles at it now, each for its part of a column. T_s is
 that of the particles at the surface now.
 """
@@ -15,12 +15,12 @@ that of the particles at the surface now.
 from __future__ import annotations
 
 from itertools import product
-from math import exp
+from math import exp, prod
 from typing import Any
 
 import numpy as np
 
-from lasersph.compute.array_types import Array
+from lasersph.compute.array_types import Array, Constants
 from lasersph.compute.backend import Backend
 from lasersph.compute.graph import graph
 from lasersph.compute.vectors import interpolate
@@ -80,9 +80,9 @@ def absorb_light(share, column, columns):
     return share * columns[column]
 
 
-def absorb_from_two(share, column, share_right, column_right, columns):
-    """The same of a particle that stands in two columns [J]."""
-    return share * columns[column] + share_right * columns[column_right]
+def absorb_more(deposit, share, column, columns):
+    """The same with that of one more column in which the particle stands [J]."""
+    return deposit + share * columns[column]
 
 
 class LayeredLight:
@@ -144,9 +144,10 @@ class LayeredLight:
         self._surface: SurfaceColumns | None = None
         self._in_columns: dict[str, Array] = {}
         self._cell = {"area": backend.asarray(area), "width": backend.asarray(width[0])}
-        self._moving: dict[str, Array] = {}
-        # particles move in 2-D, and only light that goes deep needs cells
-        if filling.position.shape[0] == 2 and self.alpha is not None:
+        self._moving: list[dict[str, Array]] = []
+        self._corners_of_column = tuple(product((0.0, 1.0), repeat=filling.position.shape[0] - 1))
+        # only light that goes deep into what moves needs cells
+        if filling.position.shape[0] > 1 and self.alpha is not None:
             self._lay_cells(width, half, self.alpha)
 
     def _lay_cells(self, width: np.ndarray, half: np.ndarray, alpha: float) -> None:
@@ -155,14 +156,17 @@ class LayeredLight:
         # coarse layers below keep the shares that they have on the lattice
         is_fine = np.all(np.isclose(width, width[:, :1], rtol=1e-9), axis=0)
         self._fine = is_fine.size if is_fine.all() else int(np.argmin(is_fine))
-        size_x, size_z = float(width[0, 0]), 2.0 * float(half[0])
+        sizes, size_z = tuple(map(float, width[:-1, 0])), 2.0 * float(half[0])
 
         # as many levels as there are fine layers, or as the light reaches
         levels = min(self._fine // columns, int(np.ceil(OPAQUE / (alpha * size_z))))
-        self._grid = {"columns": float(columns), "levels": float(levels), "low": self.lower[0, 0]}
-        self._grid |= {"inverse_x": 1.0 / size_x, "inverse_z": 1.0 / size_z}
+        low, high = self.lower[:, :columns].min(axis=1), self.upper[:, :columns].max(axis=1)
+        counts = tuple(float(n) for n in np.round((high - low) / sizes))
+        self._grid: Constants = {"columns": counts, "levels": float(levels)}
+        self._grid |= {"low": tuple(map(float, low)), "inverse_height": 1.0 / size_z}
+        self._grid |= {"inverse_width": tuple(1.0 / size for size in sizes)}
         self._levels, self._cells, self._tau_one = levels, columns * levels, alpha * size_z
-        self._size_x = size_x
+        self._column_area, self._inverse_cell = prod(sizes), 1.0 / (prod(sizes) * size_z)
         self._numbers = backend.asarray(np.arange(self._cells), "index")
         self._size = backend.asarray(np.ones(self._fine))
 
@@ -204,11 +208,11 @@ class LayeredLight:
         surface: SurfaceColumns,
         volume: Array | None = None,
     ) -> None:
-        """Let the light that `shine` fixed meet particles where they are now (2-D).
+        """Let the light that `shine` fixed meet particles where they are now.
 
         Args:
-            position: (2, n) [m]. depth: (n,) below the surface [m]. surface: the particles at it.
-            volume: (n,) [m^2], where it changes.
+            position: (d, n) [m]. depth: (n,) below the surface [m]. surface: the particles at it.
+            volume: (n,) [m^d], where it changes.
         """
         self._surface = surface
         if self.incident == 0.0:
@@ -217,12 +221,12 @@ class LayeredLight:
         if not self._moving:
             self._allocate_shares()
         if self.alpha is None:
-            # surface absorption: the particles at the surface take all, each of its two columns
-            ends = surface.shares(float(self.surface_area[0]))
-            for side, (column, share) in zip(("", "_right"), ends, strict=True):
-                backend.fill(backend.head(self._moving[f"share{side}"], self._fine_count), 0.0)
-                backend.scatter(share, surface.rows, self._moving[f"share{side}"])
-                backend.scatter(column, surface.rows, self._moving[f"column{side}"])
+            # surface absorption: the particles at the surface take all, each of its columns
+            corners = surface.shares(float(self.surface_area[0]))
+            for own, (column, share) in zip(self._moving, corners, strict=True):
+                backend.fill(backend.head(own["share"], self._fine_count), 0.0)
+                backend.scatter(share, surface.rows, own["share"])
+                backend.scatter(column, surface.rows, own["column"])
             return
         # c_ik: cells of each particle, and how much of it lies in them
         self.find_cells(position, depth, volume)
@@ -232,28 +236,27 @@ class LayeredLight:
 
     @graph
     def find_cells(self, position: Array, depth: Array, volume: Array | None) -> None:
-        """Cell, column and cover of each particle, by its four corners."""
+        """Cell, column and cover of each particle, by the corners of its own cell."""
         backend, fine = self.backend, self._fine
         # evaporated particles are less high: their volume over that of a cell
         if volume is not None:
-            area = self._grid["inverse_x"] * self._grid["inverse_z"]
             fields = {"V": backend.head(volume, fine)}
-            backend.pointwise(scale, fields, self._size, factor=area)
+            backend.pointwise(scale, fields, self._size, factor=self._inverse_cell)
 
-        # the area of a particle covers up to 2 x 2 cells
+        # a particle covers up to two cells along each axis
         fields = {"x": backend.head(position, fine), "depth": backend.head(depth, fine)}
         fields["size"] = self._size
         self._corners = []
-        for right, lower in product((0.0, 1.0), repeat=2):
+        for upper, lower in product(self._corners_of_column, (0.0, 1.0)):
             cell, column = backend.zeros(fine, "index"), backend.zeros(fine, "index")
             cover = backend.zeros(fine)
-            out, corner = (cell, column, cover), {"right": right, "lower": lower}
+            out, corner = (cell, column, cover), {"upper": upper, "lower": lower}
             backend.pointwise(cell_at_corner, fields, out, **corner, **self._grid)
             self._corners.append((cell, column, cover))
 
     @graph
     def find_shares(self) -> None:
-        """Shares of the particles in their left and right columns."""
+        """Shares of the particles in their columns."""
         backend, fine, cells = self.backend, self._fine, self._cells
         # tau_k of the cells
         tau, part = backend.zeros(cells + 1), backend.zeros(cells)
@@ -266,26 +269,29 @@ class LayeredLight:
         fields = {"tau": inner, "total": self._sums_from_above(inner)}
         backend.pointwise(light_per_cover, fields, backend.head(light, cells), tau_one=one)
 
-        # s_ik: what a particle takes of its left and right column, upper and lower cell together
-        left_and_right = self._corners[:2], self._corners[2:]
-        for side, (upper, lower) in zip(("", "_right"), left_and_right, strict=True):
+        # s_ik: what a particle takes of each of its columns, upper and lower cell together
+        pairs = zip(self._corners[::2], self._corners[1::2], strict=True)
+        for own, (upper, lower) in zip(self._moving, pairs, strict=True):
             fields = {"upper": upper[0], "cover_upper": upper[2]}
             fields |= {"lower": lower[0], "cover_lower": lower[2]}
-            out = backend.head(self._moving[f"share{side}"], fine)
-            backend.pointwise(column_share, fields, out, width=self._size_x, light=light)
-            backend.copy(upper[1], backend.head(self._moving[f"column{side}"], fine))
+            out = backend.head(own["share"], fine)
+            backend.pointwise(column_share, fields, out, area=self._column_area, light=light)
+            backend.copy(upper[1], backend.head(own["column"], fine))
 
     def _allocate_shares(self) -> None:
         """Arrays of particles that have moved, the coarse ones as they are on the lattice."""
         backend = self.backend
+        for _ in self._corners_of_column:
+            column, share = self._lattice["column"], self._lattice["share"]
+            own = {"column": backend.zeros(column.shape[0], "index")}
+            own["share"] = backend.zeros(share.shape[0])
+            self._moving.append(own)
+        # those that are deep or beside keep what they have on the lattice
         for name, values in self._lattice.items():
-            for side in ("", "_right"):
-                kind = "index" if name == "column" else "real"
-                self._moving[name + side] = backend.zeros(values.shape[0], kind)
-            backend.copy(values, self._moving[name])
+            backend.copy(values, self._moving[0][name])
         if self.alpha is not None:
-            key = backend.zeros(self._fine, "index")
-            self._members = [members_of(backend, key, self._cells) for _ in range(4)]
+            key, corners = backend.zeros(self._fine, "index"), 2 * len(self._moving)
+            self._members = [members_of(backend, key, self._cells) for _ in range(corners)]
 
     def _sums_from_above(self, tau: Array) -> Array:
         """For each cell the tau of it and all above it in its column [1]."""
@@ -319,13 +325,17 @@ class LayeredLight:
             else:
                 self.backend.copy(mean, self.backend.head(T_s, self._fine_surface))
         if self._surface is not None and self._moving:
-            shares = self._moving
+            own = enumerate(self._moving)
+            shares = {f"{name}_{k}": values for k, one in own for name, values in one.items()}
         self.reflected, self.transmitted, absorbed = self.take_light(T_s, shares)
         return absorbed
 
     @graph
     def take_light(self, T_s: Array, shares: dict[str, Array]) -> None:
         """Light that enters the columns, and what the particles take of it.
+
+        Args:
+            shares: share and column of each particle; of several, by their numbers.
 
         Reduces what is reflected, transmitted and absorbed [J].
         """
@@ -334,5 +344,17 @@ class LayeredLight:
         fields |= {"F": self.fluence, "area": self._area}
         out = (self.columns, None, None)
         backend.pointwise(enter_column, fields, out, reduce=names, **self._entering)
-        absorb = absorb_from_two if "column_right" in shares else absorb_light
-        backend.pointwise(absorb, shares, self.deposit, reduce=("sum",), columns=self.columns)
+        table = {"columns": self.columns}
+        if "share" in shares:
+            backend.pointwise(absorb_light, shares, self.deposit, reduce=("sum",), **table)
+            return
+        # each particle takes its share of each of its columns; the last one sums up all
+        last = len(shares) // 2 - 1
+        for k in range(last + 1):
+            fields = {name: shares[f"{name}_{k}"] for name in ("share", "column")}
+            if k == 0:
+                backend.pointwise(absorb_light, fields, self.deposit, **table)
+                continue
+            fields |= {"deposit": self.deposit}
+            reduce = {"reduce": ("sum",)} if k == last else {}
+            backend.pointwise(absorb_more, fields, self.deposit, **table, **reduce)

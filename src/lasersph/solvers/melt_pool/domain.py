@@ -107,6 +107,15 @@ class PoolDomain:
         """Of the domain [m]."""
         return self.box[0][1] - self.box[0][0]
 
+    @property
+    def surface_grid(self) -> tuple[tuple[float, ...], tuple[float, ...], tuple[int, ...]]:
+        """Lower ends [m], widths [m] and numbers of the columns below the surface, one for each
+        particle of the uppermost layer, along each axis."""
+        counts = tuple(int(n) for n in self.layers.columns[:, 0])
+        low = tuple(low for low, _ in self.box[:-1])
+        sizes = (high - low for low, high in self.box[:-1])
+        return low, tuple(size / n for size, n in zip(sizes, counts, strict=True)), counts
+
     def find_depth(self, position: Array, out: Array) -> None:
         """Depth of the particles below the surface, or the top of a box without one [m]."""
         self.surface.find_depth(position, out)

@@ -89,10 +89,9 @@ class MeltPool:
             pulse = heat.laser.pulse
             self.pauses = Pauses(heat.body, heat.state, pulse, pause, self.lay_out)
         self.steadiness = Steadiness(settings.steady, domain.width)
-        columns, low = heat.body.filling.fine_surface, domain.box[0][0]
-        width = domain.width / columns
-        self.surface_columns = SurfaceColumns(backend, count, low, width, columns)
-        self.surface_columns.keep(heat.body.filling.surface[columns:], heat.body.area)
+        self.surface_columns = SurfaceColumns(backend, count, *domain.surface_grid)
+        beside = heat.body.filling.surface[heat.body.filling.fine_surface :]
+        self.surface_columns.keep(beside, heat.body.area)
         self.spacing_min = domain.spacing
         self.fluid_count = 0.0
         self._has_moved = False
