@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import product
 from typing import TYPE_CHECKING
 
 from lasersph.boundaries.initial_surface import MIN_LAYERS, STEEPEST, InitialSurface
-from lasersph.case.solver_choice import computes_flow
+from lasersph.case.solver_choice import computes_flow, no_axis
 from lasersph.input import format_quantity
 from lasersph.materials import available_materials
 
@@ -38,6 +39,7 @@ def surface_problems(case: CaseContents) -> Iterator[tuple[str, str]]:
                 "[solver.flow], or leave it out",
             )
     yield from _bumps(case)
+    yield from _periods_along_y(case)
     if moves:
         yield from _tension(case)
         yield from _shape(case)
@@ -52,7 +54,7 @@ def key_of_drive(case: CaseContents, what: str) -> str:
 
 def _bumps(case: CaseContents) -> Iterator[tuple[str, str]]:
     """Bumps and caps that do not fit into the block."""
-    if case.solver.dimensions != 2:
+    if case.solver.dimensions == 1:
         return
     faces, start = case.boundaries, case.initial_surface
     reaches = {
@@ -64,14 +66,29 @@ def _bumps(case: CaseContents) -> Iterator[tuple[str, str]]:
         key = "radius" if start.radius else "cap_radius"
         found[f"solver.flow.initial_surface.{key}"] = start.shape.extent
     # The block from r = 0 outward.
-    (x,) = case.domain.lateral(case.geometry)
-    for key, radius in found.items():
-        if radius > x[1]:
+    sides = case.domain.lateral(case.geometry)
+    for (key, radius), (axis, (_, end)) in product(found.items(), enumerate(sides)):
+        if radius > end:
             yield (
                 key,
                 f"{format_quantity(radius, 'm')} reaches beyond the block, which ends at "
-                f"{format_quantity(x[1], 'm')}; write a smaller one, or a larger domain.width",
+                f"{format_quantity(end, 'm')}; write a smaller one, or a larger domain."
+                f"{('width', 'breadth')[axis]}",
             )
+
+
+def _periods_along_y(case: CaseContents) -> Iterator[tuple[str, str]]:
+    """Waves along y in a section."""
+    faces, start = case.boundaries, case.initial_surface
+    waves = {
+        "boundaries.surface_temperature_wave": faces.surface_temperature_wave,
+        "boundaries.surface_pressure_wave": faces.surface_pressure_wave,
+        "boundaries.surface_mass_flux_wave": faces.surface_mass_flux_wave,
+        "solver.flow.initial_surface": start,
+    }
+    for key, wave in waves.items():
+        if wave is not None and wave.period_y is not None and case.solver.dimensions < 3:
+            yield f"{key}.period_y", no_axis("y", 3, case.solver.dimensions)
 
 
 def _tension(case: CaseContents) -> Iterator[tuple[str, str]]:
@@ -87,17 +104,17 @@ def _tension(case: CaseContents) -> Iterator[tuple[str, str]]:
 
 
 def _shape(case: CaseContents) -> Iterator[tuple[str, str]]:
-    spacing = case.particles.spacing
-    (x,) = case.domain.lateral(case.geometry)
+    spacing, sides = case.particles.spacing, case.domain.lateral(case.geometry)
+    narrowest = min(high - low for low, high in sides)
     # Differences of fifth order need their columns.
-    if x[1] - x[0] < FEWEST_COLUMNS * spacing:
+    if narrowest < FEWEST_COLUMNS * spacing:
         yield (
             "particles.spacing",
             f"a surface that moves needs {FEWEST_COLUMNS} columns of particles; write spacing = "
-            f'"{1e9 * (x[1] - x[0]) / FEWEST_COLUMNS:.3g} nm" or less',
+            f'"{1e9 * narrowest / FEWEST_COLUMNS:.3g} nm" or less',
         )
     if case.initial_surface is not None:
-        yield from _start(case, case.initial_surface, x)
+        yield from _start(case, case.initial_surface, sides[0])
 
 
 def _start(
