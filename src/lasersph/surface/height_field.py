@@ -101,7 +101,7 @@ class HeightField:
         self.count = prod(shape)
         self.height = np.zeros(shape)
         self.pins: Pins = ((0.0, 0.0),) * len(shape)
-        self._smoothing: dict[tuple[tuple[float, ...], bool], Smoothing] = {}
+        self._smoothing: dict[tuple[float, bool], Smoothing] = {}
 
     def centers(self, axis: int = 0) -> Array:
         """Middle of the columns along an axis [m]."""
@@ -151,20 +151,20 @@ class HeightField:
     def smooth(
         self, values: Array, parity: Parity = EVEN_PARITY, at_pins: float | None = None
     ) -> Array:
-        """F of values at the columns, `shape`.
+        """F of values at the columns of a line.
 
         Args:
-            parity: of the field, or along each axis. at_pins: value that the field has at pinned
-                ends; None where it has none.
+            parity: of the field. at_pins: value that the field has at pinned ends; None where it
+                has none.
         """
-        given = [] if at_pins is None else self._at_ends(((at_pins, at_pins),) * len(self.shape))
-        return self._solve(values, self._parities(parity), given, passes_pins=at_pins is not None)
+        pins = None if at_pins is None else (at_pins, at_pins)
+        return self._solve(values, self._parities(parity)[0], pins)
 
     @property
     def smoothed(self) -> Array:
-        """F eta [m]."""
-        parities = self._parities(EVEN_PARITY)
-        return self._solve(self.height, parities, self._at_ends(self.pins), passes_pins=True)
+        """F eta of a line [m]."""
+        (pins,) = self.pins
+        return self._solve(self.height, EVEN_PARITY, pins)
 
     def derivative(self, values: Array, parity: Parity = EVEN_PARITY, axis: int = 0) -> Array:
         """Derivative of values at the columns along an axis, one-sided at pinned ends."""
@@ -188,17 +188,12 @@ class HeightField:
     @property
     def curvature(self) -> Array:
         """kappa of the smoothed field [1/m], > 0 on a crest."""
-        smoothed, axes = self.smoothed, range(len(self.shape))
+        smoothed = self.smoothed
         slopes = self.gradient(smoothed)
-        second = [
-            self._stencil(SECOND, smoothed, EVEN_PARITY, axis) / width**2
-            for axis, width in enumerate(self.widths)
-        ]
-        # eta_ab: the slope along b is even along a
-        mixed = [self.derivative(slopes[b], EVEN_PARITY, a) for a, b in combinations(axes, 2)]
+        second = self._stencil(SECOND, smoothed, EVEN_PARITY, 0) / self.widths[0] ** 2
         # around an axis of revolution, eta'/r
         around = slopes[0] / self.centers() if self.is_axisymmetric else None
-        return curvature_of(slopes, second, mixed, around)
+        return curvature_of(slopes, [second], [], around)
 
     def heights_after(self, step: float, *flux: Array) -> Array:
         """Heights after `step` [s].
@@ -279,24 +274,14 @@ class HeightField:
             total, weight = (along_axis(sums, axis, part) for part in (total, weight))
         return total / np.maximum(weight, 1.0)
 
-    def _solve(
-        self, values: Array, parities: tuple[float, ...], given: list[Array], *, passes_pins: bool
-    ) -> Array:
+    def _solve(self, values: Array, parity: float, pins: tuple | None) -> Array:
         """F of values; its factors are made at the first call."""
-        key = parities, passes_pins
+        key = parity, pins is not None
         if key not in self._smoothing:
-            grid = self.shape, self.widths, self.ends, self.cutoff
-            self._smoothing[key] = smoothing_of(*grid, parities, passes_pins=passes_pins)
-        pinned = sqrt(PIN_WEIGHT) * np.concatenate([np.zeros(0), *given])
-        return self._smoothing[key].solve(values.ravel(), pinned).reshape(self.shape)
-
-    def _at_ends(self, pins: Pins) -> list[Array]:
-        """Values at pinned ends, one for each line of columns that ends there."""
-        found = []
-        for axis, end in pinned_ends(self.ends):
-            others = self.shape[:axis] + self.shape[axis + 1 :]
-            found.append(np.broadcast_to(pins[axis][end], others).ravel())
-        return found
+            line = self.shape[0], self.widths[0], self.ends[0], self.cutoff
+            self._smoothing[key] = smoothing_of(*line, parity, passes_pins=key[1])
+        given = [] if pins is None else [pins[end] for end in pinned_ends(self.ends[0])]
+        return self._smoothing[key].solve(values, sqrt(PIN_WEIGHT) * np.array(given, float))
 
     def _parities(self, parity: Parity) -> tuple[float, ...]:
         """Parity along each axis: what is odd along x is even along others."""
@@ -306,10 +291,7 @@ class HeightField:
 
     def _stencil(self, weights: Array, values: Array, parity: float, axis: int) -> Array:
         """Sum of five neighboring values with weights; at pinned ends of the quartic."""
-        extended_values = self.extend(values, parity, axis)
-        return along_axis(
-            lambda line: np.convolve(line, weights[::-1], mode="valid"), axis, extended_values
-        )
+        return along_axis(partial(window_sum, weights=weights), axis, self.extend(values, parity, axis))
 
 
 def curvature_of(
@@ -335,15 +317,19 @@ def length_ratio(slopes: Array) -> Array:
 
 
 def along_axis(function: Callable[[Array], Array], axis: int, values: Array) -> Array:
-    """A function of lines applied to each line along an axis."""
-    if values.ndim == 1:
-        return function(values)
-    return np.apply_along_axis(function, axis, values)
+    """A function of lines, which run along the first axis, applied to those along another one."""
+    return np.moveaxis(function(np.moveaxis(values, axis, 0)), 0, axis)
+
+
+def window_sum(values: Array, weights: Array) -> Array:
+    """Sums of as many neighboring values of a line as there are weights, with these."""
+    count = values.shape[0] - weights.size + 1
+    return sum((w * values[k : k + count] for k, w in enumerate(weights)), 0.0 * values[:count])
 
 
 def extended(values: Array, low: End, high: End, parity: float) -> Array:
     """Values of a line with two more at either end."""
-    n = values.size
+    n = values.shape[0]
     left = {
         "mirror": parity * values[1::-1],
         "periodic": values[-2:],
@@ -361,8 +347,9 @@ def binomial_sum(values: Array, low: End, high: End) -> Array:
     """Binomial sums of five values of a line; beyond the ends as far as it goes on there."""
     modes: dict[End, Literal["symmetric", "wrap", "constant"]]
     modes = {"mirror": "symmetric", "periodic": "wrap", "pinned": "constant"}
-    padded = np.pad(values, (2, 0), mode=modes[low])[: values.size + 2]
-    return np.convolve(np.pad(padded, (0, 2), mode=modes[high]), BINOMIAL, mode="valid")
+    others = ((0, 0),) * (values.ndim - 1)
+    padded = np.pad(values, ((2, 0), *others), mode=modes[low])[: values.shape[0] + 2]
+    return window_sum(np.pad(padded, ((0, 2), *others), mode=modes[high]), BINOMIAL)
 
 
 def _extrapolate(values: Array) -> Array:

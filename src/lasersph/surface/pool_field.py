@@ -29,8 +29,6 @@ from lasersph.surface.smoothing import (
     PIN_WEIGHT,
     PINNED_ORDER,
     REFINEMENTS,
-    multinomial,
-    orders_along,
 )
 
 if TYPE_CHECKING:
@@ -285,7 +283,7 @@ class PoolField:
 
     def _differences(self, orders: tuple[int, ...], parity: Parity) -> csr_matrix:
         """Differences of orders along x and y, scaled so that waves of lambda_c keep half."""
-        scale = sqrt(multinomial(orders)) * prod(
+        scale = sqrt(comb(sum(orders), orders[0])) * prod(
             (self.cutoff / (2.0 * pi * width)) ** one
             for width, one in zip(self.widths, orders, strict=True)
         )
@@ -327,8 +325,8 @@ class PoolField:
         weight[: self.count] = 1.0
         A = diags(weight).tocsr()
         order = PINNED_ORDER if self.rim.size else ORDER
-        for orders in orders_along(2, order):
-            D = self._differences(orders, parity)
+        for along_x in range(order + 1):
+            D = self._differences((along_x, order - along_x), parity)
             A = A + D.T @ D
         _, _, x, y = self._pins
         P = self._rows(x, y, np.broadcast_to(BEYOND_SIDE, x.shape), parity)

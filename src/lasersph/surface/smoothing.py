@@ -1,23 +1,20 @@
-"""Smoothing of the heights of a surface, and of what it carries, on a grid of d - 1 axes.
+"""Smoothing of the heights of a surface, and of what it carries, along a line of columns.
 
 F eta minimizes
 
-    sum (f - eta)^2 + sum_j binom(n, j) (lambda_c/2 pi)^(2n) sum (D_x^j D_y^(n-j) f)^2
-                    + 100 sum over pinned ends (f_end - pin)^2
+    sum (f - eta)^2 + (lambda_c/2 pi)^(2n) sum (D^n f)^2 + 100 sum over pinned ends (f_end - pin)^2
 
-[Whittaker1923], D_x^j the j-th difference along x over dx^j; on a line that is D_x^n alone. A wave
-of length lambda >> dx keeps the part 1/(1 + (lambda_c/lambda)^(2n)) of its height, in whatever
-direction it runs. Across a plane of symmetry the field goes on as its mirror image. Where it is
+[Whittaker1923], D^n the n-th difference over dx^n. A wave of length lambda >> dx keeps the part
+1/(1 + (lambda_c/lambda)^(2n)) of its height. On a grid of two axes `pool_field` minimizes the same
+with the differences of all directions. Across a plane of symmetry the field goes on as its mirror image. Where it is
 pinned no slope is assumed: differences lie inside, polynomials of degree n - 1 pass unchanged.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import product
-from math import comb, pi, prod, sqrt
+from math import comb, pi, sqrt
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
@@ -71,77 +68,44 @@ class Smoothing:
 
 
 def smoothing_of(
-    shape: tuple[int, ...],
-    widths: tuple[float, ...],
-    ends: tuple[Ends, ...],
-    cutoff: float,
-    parities: tuple[float, ...],
-    *,
-    passes_pins: bool,
+    count: int, width: float, ends: Ends, cutoff: float, parity: float, *, passes_pins: bool
 ) -> Smoothing:
-    """F of a field with a parity along each axis.
+    """F of a field with a parity.
 
     Args:
-        shape: columns along each axis. widths: theirs [m]. ends: how the field goes on at both ends
-            of each axis. cutoff: lambda_c [m]. passes_pins: whether pinned ends have a value.
+        count: of columns. width: theirs [m]. ends: how the field goes on at both ends. cutoff:
+            lambda_c [m]. passes_pins: whether pinned ends have a value.
     """
-    from scipy.sparse import csc_matrix, identity, kron, vstack
+    from scipy.sparse import csc_matrix, identity, vstack
     from scipy.sparse.linalg import splu
 
-    # D: differences of order n in all, so scaled that waves of length lambda_c keep half
-    order = PINNED_ORDER if any("pinned" in pair for pair in ends) else ORDER
-    blocks = []
-    for orders in orders_along(len(shape), order):
-        strength = prod(
-            (cutoff / (2.0 * pi * width)) ** one for width, one in zip(widths, orders, strict=True)
-        )
-        block = csc_matrix(identity(1))
-        for axis, one in enumerate(orders):
-            along = differences(shape[axis], one, ends[axis], parities[axis])
-            block = csc_matrix(kron(block, along))
-        blocks.append(sqrt(multinomial(orders)) * strength * block)
+    # D: differences of order n, so scaled that waves of length lambda_c keep half
+    order = PINNED_ORDER if "pinned" in ends else ORDER
+    strength = (cutoff / (2.0 * pi * width)) ** order
+    D = csc_matrix(strength * differences(count, order, ends, parity))
 
     # P: the cubic through four columns meets each pinned end
-    count = prod(shape)
-    pinned = list(pinned_ends(ends)) if passes_pins else []
-    rows = [sqrt(PIN_WEIGHT) * end_values(shape, axis, end) for axis, end in pinned]
+    pinned = pinned_ends(ends) if passes_pins else []
+    rows = [sqrt(PIN_WEIGHT) * end_values(count, end) for end in pinned]
     P = csc_matrix(vstack([csc_matrix((0, count)), *rows]))
 
     # the matrix of the normal equations 1 + D^T D + P^T P, factorized once
-    D = csc_matrix(vstack(blocks))
     both = vstack([D, P]).tocsc()
     return Smoothing(D, P, splu((identity(count) + both.T @ both).tocsc()))
 
 
-def orders_along(axes: int, order: int) -> Iterator[tuple[int, ...]]:
-    """Orders of differences along each axis whose sum is `order`."""
-    for orders in product(range(order + 1), repeat=axes):
-        if sum(orders) == order:
-            yield orders
+def pinned_ends(ends: Ends) -> list[int]:
+    """Numbers (0 or 1) of the pinned ends, in the order of the rows of P."""
+    return [end for end, kind in enumerate(ends) if kind == "pinned"]
 
 
-def multinomial(orders: tuple[int, ...]) -> int:
-    """How often differences of these orders occur in the power of the Laplacian."""
-    return prod(comb(sum(orders[: k + 1]), one) for k, one in enumerate(orders))
+def end_values(count: int, end: int) -> csc_matrix:
+    """Matrix (1, count) of the value at an end of a line."""
+    from scipy.sparse import csc_matrix
 
-
-def pinned_ends(ends: tuple[Ends, ...]) -> Iterator[tuple[int, int]]:
-    """Axis and number (0 or 1) of each pinned end, in the order of the rows of P."""
-    for axis, pair in enumerate(ends):
-        for end, kind in enumerate(pair):
-            if kind == "pinned":
-                yield axis, end
-
-
-def end_values(shape: tuple[int, ...], axis: int, end: int) -> csc_matrix:
-    """Matrix of the values at one end of an axis, a row for each line of columns along it."""
-    from scipy.sparse import csc_matrix, identity, kron
-
-    row = np.zeros(shape[axis])
+    row = np.zeros(count)
     row[:4] = AT_END
-    along = csc_matrix((row if end == 0 else row[::-1]).reshape(1, -1))
-    before, after = prod(shape[:axis]), prod(shape[axis + 1 :])
-    return csc_matrix(kron(kron(identity(before), along), identity(after)))
+    return csc_matrix((row if end == 0 else row[::-1]).reshape(1, -1))
 
 
 def differences(count: int, order: int, ends: Ends, parity: float) -> csc_matrix:

@@ -89,14 +89,15 @@ def light_rows(place):
 def test_what_lies_above_takes_the_light():
     """A particle below another one takes exp(-alpha w) of what it would take alone."""
     alpha, w = 0.5, 1.0
-    grid = {"low": 0.0, "inverse_x": 1.0, "inverse_z": 1.0, "columns": 1.0, "levels": 4.0}
+    grid = {"low": (0.0,), "inverse_width": (1.0,), "inverse_height": 1.0}
+    grid |= {"columns": (1.0,), "levels": 4.0}
     taken = []
     for depths in ((0.5, 1.5), (0.5, 0.5)):
         tau = np.zeros(5)
         for depth in depths:
             for lower in (0.0, 1.0):
                 cell, _, cover = cell_at_corner(
-                    (0.5, 0.0), depth, 1.0, right=0.0, lower=lower, **grid
+                    (0.5, 0.0), depth, 1.0, upper=(0.0,), lower=lower, **grid
                 )
                 tau[cell] += alpha * w * cover
         total, distance = tau[:4].copy(), 1
@@ -114,10 +115,11 @@ def test_what_lies_above_takes_the_light():
 def test_corners_by_hand():
     """A quarter of a cell to the right and down: 9/16, 3/16, 3/16, 1/16; beyond the ends and the
     surface the next cell takes the part, and what lies below all cells is none of them."""
-    grid = {"low": 0.0, "inverse_x": 1.0, "inverse_z": 1.0, "columns": 3.0, "levels": 2.0}
+    grid = {"low": (0.0,), "inverse_width": (1.0,), "inverse_height": 1.0}
+    grid |= {"columns": (3.0,), "levels": 2.0}
 
     def corner(x, depth, right, lower, size=1.0):
-        return cell_at_corner((x, 0.0), depth, size, right=right, lower=lower, **grid)
+        return cell_at_corner((x, 0.0), depth, size, upper=(right,), lower=lower, **grid)
 
     assert corner(0.75, 0.75, 0.0, 0.0) == (0, 0, 0.5625)
     assert corner(0.75, 0.75, 1.0, 0.0) == (2, 1, 0.1875)

@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 
 from lasersph.surface import loops
+from lasersph.surface.column_loops import mean_velocity
+from lasersph.surface.surface_fit import surface_velocity_of_grid, surface_velocity_of_line
 
 COLUMNS, SPACING = 6, 2e-8
 
@@ -22,7 +24,7 @@ def surface_velocity(k, rows, slope=0.0):
     zero = np.zeros(d.size)
     jump = zero - 2.0 * slope * d
     u, w, T = 3.0 + r + slope * d + 5.0 * d**2, 2.0 - 7.0 * d**2, 100.0 + 10.0 * r
-    return loops.surface_velocity(
+    return surface_velocity_of_line(
         k,
         start,
         np.arange(d.size),
@@ -31,11 +33,11 @@ def surface_velocity(k, rows, slope=0.0):
         list(np.stack([u, w], axis=1)),
         list(np.stack([jump, zero], axis=1)),
         T,
-        0.0,
-        1.0 / SPACING,
-        COLUMNS,
-        loops.PINNED,
-        loops.PINNED,
+        (0.0,),
+        (1.0 / SPACING,),
+        (COLUMNS,),
+        (loops.PINNED,),
+        (loops.PINNED,),
         SPACING,
     )
 

@@ -5,9 +5,9 @@ import pytest
 from surface_lines import line_of
 
 from lasersph import compute
-from lasersph.surface import loops
 from lasersph.surface.recession import CATCH_UP, SHARE, part_due, take_mass
 from lasersph.surface.surface import SurfaceStep
+from lasersph.surface.surface_fit import TEMPERATURE_DEPTH
 
 SPACING, COLUMNS, ROWS, DENSITY = 1e-8, 6, 30, 7000.0
 LINE = line_of(0.0, SPACING, COLUMNS, ("mirror", "mirror"), 30 * SPACING)
@@ -59,7 +59,7 @@ def test_no_particle_is_used_up(melt):
     assert np.all(left[:, np.arange(COLUMNS) != 2] == 1.0)
     assert abs(ROWS - left[:, 2].sum() - 3.0) < 1e-9
     # the volume that is left of the smallest one by the law of the depth that is reached
-    least = (loops.TEMPERATURE_DEPTH / (np.e * SHARE * 3.0)) ** (1 / SHARE)
+    least = (TEMPERATURE_DEPTH / (np.e * SHARE * 3.0)) ** (1 / SHARE)
     assert left.min() == pytest.approx(least, rel=0.05)
     assert np.all(np.diff(left[:, 2]) >= 0.0)
     # the particles have sunk with the surface, and stay as far apart as their volumes say

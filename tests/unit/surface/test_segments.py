@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from surface_lines import line_of
 
-from lasersph.surface.segments import MIN_COLUMNS, SurfaceSegments
+from lasersph.surface.segments import MIN_COLUMNS, SurfaceSegments, overrun
 
 
 def segments(ends, molten):
@@ -62,12 +62,12 @@ def test_half_of_a_pool_moves_as_the_whole_does(width):
     assert len(half.parts) == len(whole.parts) == (2 * width >= MIN_COLUMNS)
 
 
-@pytest.mark.parametrize("end, overrun", [("mirror", [9]), ("periodic", [0, 9])])
-def test_melt_advances_over_lower_solid(end, overrun):
+@pytest.mark.parametrize("end, expected", [("mirror", [9]), ("periodic", [0, 9])])
+def test_melt_advances_over_lower_solid(end, expected):
     """Lower by more than half a column: not on the right of the first run, and across a period."""
-    found = SurfaceSegments(line_of(0.0, 1.0, 40, (end, end), 30.0))
+    whole = line_of(0.0, 1.0, 40, (end, end), 30.0)
     thick = np.zeros(40, bool)
     thick[10:30] = thick[38:] = True
-    found.whole.height = 1.0 * thick
-    found.whole.height[[9, 30, 37]] = 0.4, 0.6, 2.0
-    assert np.flatnonzero(found.overrun(thick)).tolist() == overrun
+    whole.height = 1.0 * thick
+    whole.height[[9, 30, 37]] = 0.4, 0.6, 2.0
+    assert np.flatnonzero(overrun(whole, thick)).tolist() == expected
