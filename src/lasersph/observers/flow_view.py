@@ -28,8 +28,10 @@ class FlowView:
             where a box has no free surface.
         surface_temperature: (s,) temperature of the surface above them [K]; where a surface that
             moves is solid, that of the particle itself, half a spacing below.
-        surface_gradient: (s,) its derivative dT/dx [K/m].
-        surface_velocity: (s,) horizontal velocity extrapolated to the surface [m/s], 0 on solid.
+        surface_gradient: (s,) its derivative dT/dx; in 3-D the size of its gradient along the
+            surface, 0 where nothing flows near it [K/m].
+        surface_velocity: (s,) horizontal velocity extrapolated to the surface, in 3-D (2, s) along
+            x and y [m/s]; 0 on solid.
         surface_pressure: (s,) dynamic pressure at the surface [Pa].
         divergence_rms, divergence_max: of the velocity of flowing particles after the projection
             [1/s].
@@ -75,6 +77,13 @@ class FlowView:
     wall_impulse: Mapping[str, float] = field(default_factory=dict)
     wall_pressing: Mapping[str, float] = field(default_factory=dict)
     full_step: float = 0.0
+
+    @property
+    def surface_speed(self) -> np.ndarray:
+        """(s,) size of the horizontal velocity at the surface [m/s]."""
+        if self.surface_velocity.ndim == 1:
+            return np.abs(self.surface_velocity)
+        return np.sqrt(np.sum(self.surface_velocity**2, axis=0))
 
     def of_whole(self, images: int) -> Self:
         """The same with the heat through level sides of a computed half and its mirror image."""

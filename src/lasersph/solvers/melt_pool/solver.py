@@ -45,7 +45,7 @@ class MeltPool:
 
     Attributes:
         heat: the solver of enthalpies. flow: velocity and pressure. domain: faces, surface, blocks.
-        position: (2, n) of all particles [m]. kinds: of the particles. fluid_count: how many do.
+        position: (d, n) of all particles [m]. kinds: of the particles. fluid_count: how many do.
         spacing_min: smallest distance of two particles of the block [m].
         exchange: of a box with its faces.
     """
@@ -79,7 +79,8 @@ class MeltPool:
         self.pairs = HeatPairs(heat.body)
         # faces book heat at the potential that the implicit step ends with
         scheme = heat.scheme
-        potential = scheme.P if domain.is_box and isinstance(scheme, ImplicitStep) else None
+        is_booked = domain.is_box and isinstance(scheme, ImplicitStep) and len(domain.box) == 2
+        potential = scheme.P if is_booked else None
         is_symmetric = domain.surface.pressure_gradient.is_symmetric
         self.exchange = FaceExchange(backend, count, potential, books_pressing=is_symmetric)
         # between pulses: new lattice, time jump; and the test of a steady flow

@@ -59,8 +59,7 @@ def with_flow(case: Case, settings: MeltPoolSettings, layers: Layers, heat: Cond
         weighing=weighing,
     )
     # What flows stays among the fine columns.
-    (x,) = layers.fine_bounds
-    box = (x, (-float(layers.thickness.sum()), 0.0))
+    box = (*layers.fine_bounds, (-float(layers.thickness.sum()), 0.0))
     conditions = FaceConditions(
         box, case.boundaries, case.flow, case.initial_temperature, has_axis=is_section
     )
@@ -99,6 +98,7 @@ def with_flow(case: Case, settings: MeltPoolSettings, layers: Layers, heat: Cond
         surface = FlatSurface(
             backend,
             count,
+            dimension=layers.dimension,
             plane=0.0,
             spacing=layers.spacing,
             support=support,
@@ -109,7 +109,7 @@ def with_flow(case: Case, settings: MeltPoolSettings, layers: Layers, heat: Cond
             pressure_gradient=DifferenceGradient() if is_section else SymmetricGradient(),
         )
     else:
-        surface = Surface(backend, count, 0.0)
+        surface = Surface(backend, count, 0.0, layers.dimension)
 
     # Volumes belong into checkpoints where particles are laid out anew or lose mass.
     volume = FIELDS["volume"]
@@ -154,7 +154,7 @@ def _surface_line(case: Case, conditions: FaceConditions, columns: int) -> Heigh
 
     It goes on as the flow does beyond its ends; at walls it is pinned at its height there.
     """
-    x, _ = conditions.box
+    x, *_ = conditions.box
     width = (x[1] - x[0]) / columns
     kinds: dict[str, End] = {"symmetry": "mirror", "free-slip": "mirror", "periodic": "periodic"}
     left, right = (conditions.flow_kind(side) for side in ("left", "right"))
