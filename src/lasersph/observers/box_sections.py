@@ -16,6 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from lasersph.observers.interpolation import interpolate
+from lasersph.particles.faces import ENDS
 
 FINER = 3
 
@@ -73,12 +74,29 @@ class Box:
         return self.bottom + self.height * shares
 
     def along(self, side: str, shares: np.ndarray) -> np.ndarray:
-        """Points (2, m) of a side, counted from the left or from the bottom [m]."""
+        """Points (d, m) of a side, counted from the left or from the bottom [m].
+
+        Of a block those of all pairs of shares, (d, m^2).
+        """
+        if self.breadth:
+            return self._over(side, shares)
         if side in ("left", "right"):
             x = self.left if side == "left" else self.right
             return np.stack([np.full(shares.size, x), self.up(shares)])
         z = self.bottom if side == "bottom" else self.top
         return np.stack([self.across(shares), np.full(shares.size, z)])
+
+
+    def _over(self, side: str, shares: np.ndarray) -> np.ndarray:
+        """Points (3, m^2) of a side of a block [m]."""
+        axis, end = ENDS[side]
+        places = [
+            self.across(shares),
+            self.front + self.breadth * shares,
+            self.up(shares),
+        ]
+        places[axis] = np.array([self.edges[2 * (0, 2, 1)[axis] + end]])
+        return np.stack([one.ravel() for one in np.meshgrid(*places, indexing="ij")])
 
 
 @dataclass(frozen=True)
@@ -140,7 +158,7 @@ def wall_temperature(
     """Mean temperature of a side [K], extrapolated from particles.
 
     Args:
-        position: (2, n) [m]. temperature: (n,) [K]. count: points along the side.
+        position: (d, n) [m]. temperature: (n,) [K]. count: points along the side.
     """
     # places in the middle of equal parts of the side
     points = box.along(side, (np.arange(count) + 0.5) / count)

@@ -16,6 +16,15 @@ import numpy as np
 from lasersph.particles.faces import LATERAL
 
 
+def side_images(side: str, images: int) -> int:
+    """How many times the computed part of a side makes up the whole, of a box of `images` parts.
+
+    Half of a box ends at x = 0, a quarter at y = 0 as well; a side is whole along its own normal.
+    """
+    mirrored = {1: (), 2: (LATERAL[0],), 4: LATERAL}[images]
+    return 2 ** sum(side not in pair for pair in mirrored)
+
+
 @dataclass(frozen=True)
 class FlowView:
     """Flow of a run after a step; n particles, s of them at the flat surface.
@@ -88,7 +97,6 @@ class FlowView:
     def of_whole(self, images: int) -> Self:
         """The same with the heat through level sides of a computed half and its mirror image."""
         heat = {
-            side: heat if side in LATERAL[0] else images * heat
-            for side, heat in self.wall_heat.items()
+            side: side_images(side, images) * heat for side, heat in self.wall_heat.items()
         }
         return replace(self, wall_heat=heat)

@@ -189,8 +189,7 @@ def flow_observers(
     # a closed box has no pool and no vapor, but walls and eddies
     if box:
         here = (one for one in heat if not isinstance(one, MeltPool | Vaporization))
-        walls = (WallExchange(),) if dimension == 2 else ()
-        return Observers([*here, *flow, BoxFlow(dimension), *walls])
+        return Observers([*here, *flow, BoxFlow(dimension), WallExchange(dimension)])
     cells = (FlowCells(),) if covered > dimension and topography is None else ()
     # extrema of a line along x, which a surface in 3-D is not
     extrema = (FlowExtrema(),) if dimension == 2 else ()

@@ -82,8 +82,10 @@ class SurfaceSpeed(Observer):
         Quantity("flow_layer_thickness_m", "m", "thickness of the layer that flows outward"),
         Quantity("flow_gradient_mean_K_m", "K/m", "mean of |dT/dx| along the liquid surface"),
         Quantity("flow_estimate_m_s", "m/s", "speed estimated from that layer"),
+        FASTEST_Y,
     )
     results = (
+        Quantity(FASTEST_Y_AT, "m", "y of the fastest place of the surface"),
         Quantity("flow.row_depth_m", "m", "depth of the first row of particles"),
         Quantity("flow.below_depth_m", "m", "depth one spacing below"),
         Quantity(
@@ -109,8 +111,8 @@ class SurfaceSpeed(Observer):
         Args:
             dimension: 2 or 3.
         """
-        if dimension == 3:
-            self.columns = (*self.columns, FASTEST_Y)
+        if dimension < 3:
+            self.columns = self.columns[:-1]
         super().__init__()
         self.at_peak: dict[str, float] = {}
 

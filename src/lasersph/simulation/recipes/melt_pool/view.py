@@ -16,9 +16,6 @@ from lasersph.observers.flow_view import FlowView
 from lasersph.physics.recoil import recoil_at
 from lasersph.solvers.melt_pool.solver import MeltPool
 
-SIDES = ("left", "right", "bottom", "surface")
-
-
 def flow_view(case: Case, solver: MeltPool, fetch: Callable[[Array], np.ndarray]) -> FlowView:
     """The flow for observers; `fetch` gets an array of the solver."""
     flow = solver.flow
@@ -51,9 +48,9 @@ def flow_view(case: Case, solver: MeltPool, fetch: Callable[[Array], np.ndarray]
         jump = np.atleast_2d(backend.host_view(free.ghost_velocity_jump))[:level, surface]
         speed = velocity[:level, surface] + flows * (0.5 * jump)
         speed = speed[0] if level == 1 else speed
-    T = material.flow_temperature
+    T, sides = material.flow_temperature, case.geometry.faces
     has_slope = material.surface_tension_slope is not None or material.surface_tension is not None
-    is_box, kinds = case.flow is not None, {side: case.boundaries.kind_of(side) for side in SIDES}
+    is_box, kinds = case.flow is not None, {side: case.boundaries.kind_of(side) for side in sides}
 
     # Sides of a box with a given temperature, which walls of a block do not show.
     wall_temperature = {
