@@ -15,8 +15,7 @@ BAD_FLOW_CASES = {
     # solver
     "flow under conduction": (KIND + "\n" + GRAVITY, 'kind = "conduction"\nphase_change = false', ':32: solver.flow: unknown key; belongs to kind = "melt-pool"'),
     "steady under conduction": (KIND + "\n" + GRAVITY, 'kind = "conduction"\nphase_change = false', ':30: solver.steady: unknown key; belongs to kind = "melt-pool"'),
-    "flow in 3-D": (KIND, KIND + "\ndimensions = 3", ':29: solver.dimensions: must be 2, got 3: flow is computed in 2-D sections so far; write dimensions = 2, or kind = "conduction" for heat and melting alone'),
-    "flow in 1-D": (KIND, KIND + "\ndimensions = 1", ':29: solver.dimensions: must be 2, got 1: flow is computed in 2-D sections so far; write dimensions = 2, or kind = "conduction" for heat and melting alone'),
+    "flow in 1-D": (KIND, KIND + "\ndimensions = 1", ':29: solver.dimensions: must be 2 or 3, got 1: a column of liquid has nowhere to flow; write dimensions = 2, or kind = "conduction" for heat and melting alone'),
     "key of the other solver": (KIND, KIND + '\nscheme = "explicit"', ':29: solver.scheme: unknown key; belongs to kind = "conduction"'),
     "key of this solver under conduction": (KIND, 'kind = "conduction"', ':29: solver.gravity: unknown key; belongs to kind = "melt-pool" or kind = "ablation"'),
     "gravity as a velocity": (GRAVITY, 'gravity = "10 m/s"', ':29: solver.gravity: "10 m/s" is a velocity, not an acceleration; write e.g. "9.81 m/s^2"'),

@@ -197,7 +197,7 @@ spacing = "100 nm"
 surface = "fixed-temperature"
 [solver]
 kind = "melt-pool"
-dimensions = 3
+dimensions = 1
 [time]
 end = "100 ns"
 [ejection]
@@ -211,7 +211,7 @@ A_MELT_POOL_SAYS = """\
 :9: domain.width: missing for 2-D; write e.g. width = "5 um"
 :13: boundaries.surface_temperature: is missing where surface = "fixed-temperature"; write e.g. surface_temperature = "1000 K"
 :14: boundaries.surface: a laser heats the surface, "fixed-temperature" holds its temperature; remove one of the two
-:17: solver.dimensions: must be 2, got 3: flow is computed in 2-D sections so far; write dimensions = 2, or kind = "conduction" for heat and melting alone
+:17: solver.dimensions: must be 2 or 3, got 1: a column of liquid has nowhere to flow; write dimensions = 2, or kind = "conduction" for heat and melting alone
 :20: solver.ejection: unknown key; belongs to kind = "ablation"
 """
 

@@ -90,7 +90,7 @@ def test_layer_that_is_warm_above():
     surface, k = solver.domain.surface, 2.0 * np.pi / PERIOD
     fields, host = host_fields(solver), solver.backend.to_host
     top = host(surface.at_surface) > 0.0
-    u = fields["velocity"][0] + 0.5 * host(surface.ghost_velocity_jump)
+    u = fields["velocity"][0] + 0.5 * host(surface.ghost_velocity_jump)[0]
     speed = 2.0 * np.mean((u * np.sin(k * fields["position"][0]))[top])
     exact = exact_surface_speed(lambda z: 7e-3 - 5.25e-3 * (1.0 + z / DEPTH), SLOPE * k)
     assert speed == pytest.approx(exact, rel=0.04)

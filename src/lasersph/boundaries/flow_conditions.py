@@ -10,7 +10,7 @@
     free-surface   the same
     moving         moves with the liquid, under surface tension and its gradient (top only)
 
-n is the normal of a face and t its tangent: x along surface and bottom, z along left and right.
+n is the normal of a face and t its tangent: x along surface and bottom, z along all sides.
 Without a `[solver.flow]` table, or with one that names the surface of a metal that melts, what is
 molten flows in the block below the surface.
 """
@@ -25,7 +25,7 @@ from pydantic_core import CoreSchema
 from lasersph.boundaries.initial_flow import InitialFlow, RestingFlow
 from lasersph.boundaries.initial_surface import InitialSurface
 from lasersph.input import Model, Velocity, refusal
-from lasersph.particles.faces import PLANE, face_pairs
+from lasersph.particles.faces import ENDS, LATERAL, SURFACE, face_pairs
 
 FlowKind = Literal[
     "no-slip",
@@ -48,7 +48,7 @@ class FlowCondition(Model):
     kind: FlowKind = Field(default="no-slip", description="how the fluid meets the face")
     velocity: Velocity = Field(
         default=0.0,
-        description="of a moving wall, along it: x at surface and bottom, z at left and right",
+        description="of a moving wall, along it: x at surface and bottom, z at the sides",
     )
 
     @model_validator(mode="after")
@@ -95,8 +95,23 @@ Condition = Annotated[FlowCondition, BeforeValidator(_from_word)]
 class FlowConditions(Model):
     """A closed box that is all fluid: what holds for the flow at its faces, and how it starts."""
 
-    left: Condition = Field(default=AT_REST, description="at the smaller x")
-    right: Condition = Field(default=AT_REST, description="at the larger x")
+    left: Condition = Field(default=AT_REST, description="at the smaller x; default: as sides")
+    right: Condition = Field(default=AT_REST, description="at the larger x; default: as sides")
+    front: Condition | None = Field(
+        default=None,
+        exclude_if=lambda given: given is None,
+        description="at the smaller y; 3-D; default: as sides",
+    )
+    back: Condition | None = Field(
+        default=None,
+        exclude_if=lambda given: given is None,
+        description="at the larger y; 3-D; default: as sides",
+    )
+    sides: Condition | None = Field(
+        default=None,
+        exclude_if=lambda given: given is None,
+        description='at both ends of x and y; default: "no-slip"',
+    )
     bottom: Condition = Field(default=AT_REST, description="at the smallest z")
     surface: Condition = Field(default=AT_REST, description="at z = 0")
     initial: InitialFlow = Field(default=RestingFlow(), description="velocity at the start")
@@ -104,12 +119,20 @@ class FlowConditions(Model):
         default=None, description="height of a surface that moves at the start"
     )
 
+    @model_validator(mode="before")
+    @classmethod
+    def _fill_sides(cls, data: Any) -> Any:
+        """Let left and right be as the sides, where the case does not say."""
+        if not isinstance(data, dict) or data.get("sides") is None:
+            return data
+        return {side: data["sides"] for side in LATERAL[0]} | data
+
     @model_validator(mode="after")
     def _check_pairs(self) -> FlowConditions:
         problems = []
         # a period joins two faces, so both say so
-        for one, other in face_pairs(2):
-            kinds = {side: getattr(self, side).kind for side in (one, other)}
+        for one, other in face_pairs(3):
+            kinds = {side: self.faces[side].kind for side in (one, other)}
             single = [side for side, kind in kinds.items() if kind == "periodic"]
             if len(single) == 1:
                 partner = other if single[0] == one else one
@@ -121,9 +144,10 @@ class FlowConditions(Model):
                     )
                 )
         # surface tension acts at the top alone
-        for side in PLANE[:3]:
-            if (kind := getattr(self, side).kind) in FREE:
-                problems.append((side, f'a free surface lies at the top; write surface = "{kind}"'))
+        for side, condition in self.faces.items():
+            if side != SURFACE and (kind := condition.kind) in FREE:
+                key = side if getattr(self, side) not in (None, self.sides) else "sides"
+                problems.append((key, f'a free surface lies at the top; write surface = "{kind}"'))
         # heights need a surface that moves
         if self.initial_surface is not None and self.surface.kind != "moving":
             problems.append(
@@ -139,11 +163,11 @@ class FlowConditions(Model):
     @property
     def names_surface_only(self) -> bool:
         """Whether it says nothing but what kind of free surface there is."""
-        others = (self.left, self.right, self.bottom, self.initial)
-        is_named = self.surface.kind in ("flat", "moving")
-        return is_named and others == (AT_REST, AT_REST, AT_REST, RestingFlow())
+        is_named = self.surface.kind in ("flat", "moving") and self.initial == RestingFlow()
+        others = (each for face, each in self.faces.items() if face != SURFACE)
+        return is_named and all(each == AT_REST for each in others)
 
     @property
     def faces(self) -> dict[str, FlowCondition]:
-        """The conditions by face: left, right, bottom, surface."""
-        return {name: getattr(self, name) for name in PLANE}
+        """The conditions by face, those of y, which only blocks have, included."""
+        return {name: getattr(self, name) or self.sides or AT_REST for name in ENDS}

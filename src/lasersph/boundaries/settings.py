@@ -14,7 +14,7 @@ The emissivity is the metal's where none is given here.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Annotated, Literal, NamedTuple
+from typing import Annotated, Any, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -37,7 +37,7 @@ from lasersph.input import (
     refusal,
 )
 from lasersph.materials import Material
-from lasersph.particles.faces import BOTTOM, LEFT, RIGHT, SURFACE, VERTICAL
+from lasersph.particles.faces import BOTTOM, SURFACE, VERTICAL, face_pairs
 
 Array = NDArray[np.float64]
 Face = Literal["adiabatic", "periodic", "free", "fixed-temperature", "wall", "prescribed-flux"]
@@ -47,8 +47,18 @@ NEUMANN = "prescribed-flux"
 """The kind of faces whose heat flux is given."""
 STANDARD_ATMOSPHERE = 101325.0
 """Pressure of the surroundings [Pa]. Exact: by its definition."""
-KEYS = {"surface": "surface", "bottom": "bottom", "sides": "side", "left": "left", "right": "right"}
+KEYS = {
+    face: face.removesuffix("s") if face == "sides" else face
+    for face in ("surface", "bottom", "sides", "left", "right", "front", "back")
+}
 """Each face and how the keys of its temperature and flux begin."""
+
+
+def _of_body(description: str) -> Any:
+    """Field of a face that blocks alone have, which cases of fewer dimensions do not store."""
+    return Field(
+        default=None, exclude_if=lambda given: given is None, description=description
+    )
 
 
 class Surroundings(NamedTuple):
@@ -122,6 +132,12 @@ class Boundaries(Model):
         description="where it is given; default: side_temperature, else the initial temperature",
     )
     right_flux: HeatFlux | None = Field(default=None, description="into the body")
+    front: Face | None = _of_body("at the smaller y; 3-D; default: as sides")
+    front_temperature: Temperature | None = _of_body("as left_temperature")
+    front_flux: HeatFlux | None = _of_body("into the body")
+    back: Face | None = _of_body("at the larger y; 3-D; default: as sides")
+    back_temperature: Temperature | None = _of_body("as left_temperature")
+    back_flux: HeatFlux | None = _of_body("into the body")
     convection: Annotated[HeatTransferCoefficient, Field(ge=0)] = Field(
         default=0.0, description="heat transfer coefficient of the surface"
     )
@@ -193,7 +209,7 @@ class Boundaries(Model):
             )
 
     def _halves_of_periods(self) -> Iterator[tuple[str, str]]:
-        for one, other in ((SURFACE, BOTTOM), (LEFT, RIGHT)):
+        for one, other in face_pairs(3)[::-1]:
             # a period joins two faces, so both say so
             kinds = {face: self.kind_of(face) for face in (one, other)}
             if list(kinds.values()).count("periodic") == 1:

@@ -138,10 +138,15 @@ def _domain(case: CaseContents) -> Iterator[tuple[str, str]]:
         return
     if dimensions == 1 and domain.extent == "half":
         yield "domain.extent", 'half of a 1-D column means nothing; write extent = "full"'
+    if dimensions < 3 and domain.extent == "quarter":
+        yield (
+            "domain.extent",
+            f'a quarter is symmetric about y = 0, too, which a {dimensions}-D run does not have; '
+            'write extent = "half", or dimensions = 3 in [solver]',
+        )
     # Each side holds a few particles at least.
-    for key, length in (("depth", domain.depth), ("width", domain.width)):
-        if key == "width" and dimensions == 1:
-            continue
+    sides = (("depth", domain.depth), ("width", domain.width), ("breadth", domain.breadth))
+    for key, length in sides[:dimensions]:
         if length is not None and length < FEWEST_LAYERS * lattice.spacing:
             yield (
                 f"domain.{key}",
@@ -155,18 +160,22 @@ def _domain(case: CaseContents) -> Iterator[tuple[str, str]]:
 def _faces(case: CaseContents) -> Iterator[tuple[str, str]]:
     """Whether the faces fit the domain and its dimensions."""
     boundaries, dimensions = case.boundaries, case.solver.dimensions
-    left = boundaries.kind_of("left")
 
-    # Half a block ends in a plane of symmetry.
-    if case.domain.extent == "half" and left != "adiabatic":
-        key = "left" if boundaries.left else "sides"
-        yield (
-            f"boundaries.{key}",
-            f'half a block is symmetric at x = 0, "{left}" does not fit; write '
-            f'extent = "full" in [domain] or {key} = "adiabatic"',
-        )
+    # Half a block ends in a plane of symmetry, a quarter in two.
+    for axis, face in zip("xy", case.domain.planes_of_symmetry, strict=False):
+        kind = boundaries.kind_of(face)
+        if kind != "adiabatic":
+            key = face if getattr(boundaries, face) else "sides"
+            yield (
+                f"boundaries.{key}",
+                f'{case.domain.part} a block is symmetric at {axis} = 0, "{kind}" does not fit; '
+                f'write extent = "full" in [domain] or {key} = "adiabatic"',
+            )
 
-    # Faces along x exist from two dimensions on, and each is said once.
+    # Faces along x exist from two dimensions on, those along y in three, and each is said once.
+    for face in ("front", "back"):
+        if dimensions < 3 and getattr(boundaries, face) is not None:
+            yield f"boundaries.{face}", no_axis("y", 3, dimensions)
     for face in ("left", "right"):
         if dimensions == 1 and getattr(boundaries, face) is not None:
             yield (

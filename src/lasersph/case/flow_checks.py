@@ -4,16 +4,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from itertools import chain
 from typing import TYPE_CHECKING
 
 from lasersph.boundaries.flow_conditions import FREE, FlowConditions
 from lasersph.boundaries.initial_flow import TaylorGreenFlow
 from lasersph.boundaries.settings import DIRICHLET, NEUMANN
 from lasersph.case.size import LARGEST_STEPS
-from lasersph.case.solver_choice import computes_flow
+from lasersph.case.solver_choice import computes_flow, no_axis
 from lasersph.input import format_quantity
 from lasersph.materials import available_materials
-from lasersph.particles.faces import PLANE, faces_of
+from lasersph.particles.faces import BACK, FRONT, LATERAL, faces_of
 
 if TYPE_CHECKING:
     from lasersph.case.contents import CaseContents
@@ -62,7 +63,7 @@ def _liquid(case: CaseContents, solver: MeltPoolSettings) -> Iterator[tuple[str,
 
 
 def _heat_faces(case: CaseContents) -> Iterator[tuple[str, str]]:
-    for face in faces_of(2):
+    for face in faces_of(case.solver.dimensions):
         if case.boundaries.kind_of(face) == "free":
             own = getattr(case.boundaries, face) is not None
             yield (
@@ -88,7 +89,8 @@ def _pool(case: CaseContents, solver: MeltPoolSettings) -> Iterator[tuple[str, s
             "the sides of a box that is all fluid",
         )
     is_heated = case.laser is not None or any(
-        case.boundaries.kind_of(face) in (*DIRICHLET, NEUMANN) for face in faces_of(2)
+        case.boundaries.kind_of(face) in (*DIRICHLET, NEUMANN)
+        for face in faces_of(case.solver.dimensions)
     )
     if not is_heated:
         yield (
@@ -116,13 +118,13 @@ def _box(case: CaseContents, flow: FlowConditions) -> Iterator[tuple[str, str]]:
         )
 
     # A side repeats for heat and for flow, or for neither.
-    for side in PLANE:
+    for side in faces_of(case.solver.dimensions):
         heat, kind = case.boundaries.kind_of(side), flow.faces[side].kind
         if (heat == "periodic") == (kind == "periodic"):
             continue
         own = getattr(case.boundaries, side) is not None
         key = (
-            f"solver.flow.{side}"
+            _key_of(flow, side)
             if heat == "periodic"
             else f"boundaries.{side if own else 'sides'}"
         )
@@ -133,21 +135,39 @@ def _box(case: CaseContents, flow: FlowConditions) -> Iterator[tuple[str, str]]:
             "neither",
         )
 
-    # Half a box ends in a plane of symmetry of the flow.
-    if case.domain.extent == "half" and flow.left.kind not in ("symmetry", "free-slip"):
-        yield (
-            "solver.flow.left",
-            f'half a box is symmetric at x = 0, "{flow.left.kind}" does not fit; write '
-            'left = "symmetry", or extent = "full" in [domain]',
-        )
+    # Half a box ends in a plane of symmetry of the flow, a quarter in two.
+    for axis, side in zip("xy", case.domain.planes_of_symmetry, strict=False):
+        kind = flow.faces[side].kind
+        if kind not in ("symmetry", "free-slip"):
+            yield (
+                _key_of(flow, side),
+                f'{case.domain.part} a box is symmetric at {axis} = 0, "{kind}" does not fit; '
+                f'write {side} = "symmetry", or extent = "full" in [domain]',
+            )
+    yield from _faces_along_y(case, flow)
     if isinstance(flow.initial, TaylorGreenFlow):
         yield from _vortices(case, flow.initial)
+
+
+def _key_of(flow: FlowConditions, side: str) -> str:
+    """Key that says what holds at a side: its own, or that of all of them."""
+    is_own = side not in chain(*LATERAL) or flow.sides is None or flow.faces[side] != flow.sides
+    return f"solver.flow.{side if is_own else 'sides'}"
+
+
+def _faces_along_y(case: CaseContents, flow: FlowConditions) -> Iterator[tuple[str, str]]:
+    """Sides that a section does not have."""
+    if case.solver.dimensions == 3:
+        return
+    for side in (FRONT, BACK):
+        if getattr(flow, side) is not None:
+            yield f"solver.flow.{side}", no_axis("y", 3, case.solver.dimensions)
 
 
 def _vortices(case: CaseContents, initial: TaylorGreenFlow) -> Iterator[tuple[str, str]]:
     """Vortices must fill the box: the walls lie between them."""
     # Walls lie between vortices, half a period apart.
-    (x,) = case.domain.lateral(case.geometry)
+    x, *_ = case.domain.lateral(case.geometry)
     period = initial.period or x[1] - x[0]
     for key, length in (("width", x[1] - x[0]), ("depth", case.domain.depth)):
         count = length / (0.5 * period)

@@ -65,11 +65,14 @@ def _beam(case: CaseContents, laser: Laser) -> Iterator[tuple[str, str]]:
         return
 
     # A half or quarter needs light that is even about its planes.
-    if domain.extent == "half" and not laser.first_pulse.is_even:
-        yield (
-            "domain.extent",
-            'this beam is not symmetric about x = 0; write extent = "full"',
-        )
+    for axis, name in zip((0, 1), "xy"[: len(domain.planes_of_symmetry)], strict=False):
+        even = laser.first_pulse.is_even if dimensions == 2 else laser.first_pulse.is_mirrored(axis)
+        if not even:
+            yield (
+                "domain.extent",
+                f'this beam is not symmetric about {name} = 0; write extent = "full"'
+                + (' or "half"' if axis else ""),
+            )
     yield from _position(laser, dimensions)
     if not isinstance(laser.beam, InterferenceBeam):
         return
@@ -94,7 +97,8 @@ def _beam(case: CaseContents, laser: Laser) -> Iterator[tuple[str, str]]:
     ends = {case.boundaries.kind_of("left"), case.boundaries.kind_of("right")}
     if ends & set(repeating):
         yield from _whole_periods("width", domain.width, laser.beam.lateral_period)
-    if dimensions == 3 and case.boundaries.sides in repeating:
+    across = {case.boundaries.kind_of("front"), case.boundaries.kind_of("back")}
+    if dimensions == 3 and across & set(repeating):
         yield from _whole_periods(
             "breadth", domain.breadth or domain.width, laser.beam.lateral_period_y
         )

@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING
 
 from lasersph.boundaries.initial_motion import Rest
 from lasersph.particles import Domain, Geometry, Lattice
+from lasersph.particles.faces import ENDS
 
 if TYPE_CHECKING:
     from lasersph.case.contents import CaseContents
@@ -124,7 +125,7 @@ def has_spot_in_the_middle(case: CaseContents) -> bool:
     if laser is None or case.solver.dimensions == 1 or not laser.is_bounded:
         return False
     rests = laser.path is None and laser.position == (0.0, 0.0) and not laser.beam.is_pattern
-    repeats = "periodic" in (faces.kind_of("left"), faces.kind_of("right"), faces.sides)
+    repeats = "periodic" in (faces.sides, *(faces.kind_of(face) for face in ENDS))
     return rests and not repeats and case.solver.phase_change and metal.melting is not None
 
 

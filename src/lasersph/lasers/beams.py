@@ -84,6 +84,10 @@ class BeamProfile(Model):
         """Whether f(-x, 0) = f(x, 0)."""
         return True
 
+    def is_mirrored(self, axis: int) -> bool:
+        """Whether f is the same at -x (axis 0) or -y (axis 1), at all places."""
+        return True
+
     def of_one_pulse(self) -> Self:
         """The beam of a single pulse."""
         return self

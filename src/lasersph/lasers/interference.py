@@ -344,6 +344,27 @@ class InterferenceBeam(BeamProfile):
         odd = np.abs(np.sin(phase) * (K[0] != 0.0)) + np.abs(np.sin(K[0] * self.shift))
         return bool(np.all(np.abs(c) * odd < 1e-9))
 
+    def is_mirrored(self, axis: int) -> bool:
+        """Whether f is the same at -x (axis 0) or -y (axis 1), at all places, of the first pulse.
+
+        Waves that the mirror takes to each other have the same amplitudes.
+        """
+        c, K, phase = self.terms
+        # c cos(K r + phase) is one wave exp(i K r) and one of -K
+        both, amplitude = np.hstack([K, -K]), c * np.exp(1j * phase)
+        amplitude = np.concatenate([amplitude, amplitude.conj()])
+        mirror = np.where(np.arange(2) == axis, -1.0, 1.0)[:, None]
+        near = 1e-6 * np.abs(both).max()
+        # amplitude at each place in the plane of waves, and at its mirror image
+        for place in both.T:
+            own, other = (
+                amplitude[np.all(np.abs(both - at[:, None]) < near, axis=0)].sum()
+                for at in (place, place * mirror[:, 0])
+            )
+            if abs(own - other) > 1e-9:
+                return False
+        return True
+
     @property
     def scale(self) -> float:
         """Length over which the profile changes [m]."""

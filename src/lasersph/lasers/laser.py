@@ -64,12 +64,19 @@ class Laser(LaserKeys):
     @property
     def is_even(self) -> bool:
         """Whether the light is symmetric about x = 0 at all times."""
+        return self._is_centered(0) and self.beam.is_even
+
+    def is_mirrored(self, axis: int) -> bool:
+        """Whether the light is the same at -x (axis 0) or -y (axis 1), at all places and times."""
+        return self._is_centered(axis) and self.beam.is_mirrored(axis)
+
+    def _is_centered(self, axis: int) -> bool:
+        """Whether its axis lies in the plane x = 0 or y = 0, as far as that matters."""
         if self.beam.is_uniform and not self.is_bounded:
             return True
         # nothing is known of the symmetry of a measured spot
         is_measured = self.spot is not None and self.spot.image is not None and self.is_bounded
-        is_centered = self.path is None and self.position[0] == 0.0 and not is_measured
-        return is_centered and self.beam.is_even
+        return self.path is None and self.position[axis] == 0.0 and not is_measured
 
     @property
     def displacement(self) -> float | None:

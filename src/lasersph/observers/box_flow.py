@@ -1,4 +1,6 @@
-"""A closed box of liquid: center lines and stream function.
+"""A closed box of liquid: center lines and, of a section, its stream function.
+
+The lines of a block lie half way between front and back.
 
 Interpolating from particles takes about as long as a step, so it is done in every `EVERY`-th step
 and at the end; between, the history repeats the last value.
@@ -81,7 +83,13 @@ class BoxFlow(Observer):
     # centers and eddies of the last measurement go into a checkpoint
     kept = ("edges", "found")
 
-    def __init__(self) -> None:
+    def __init__(self, dimension: int = 2) -> None:
+        """
+        Args:
+            dimension: 2 or 3; a flow of three dimensions has no stream function.
+        """
+        if dimension == 3:
+            self.columns = self.columns[: len(CENTER)]
         super().__init__()
         self.edges: list[float] = []
         self.found: dict[str, Any] = {}
@@ -92,16 +100,16 @@ class BoxFlow(Observer):
         # the box is that of the first view: particles move, its walls do not
         if not self.edges:
             box = Box.around(view.position, view.width)
-            self.edges = [box.left, box.right, box.bottom, box.top]
+            self.edges = box.edges
         self.unseen = view
         if view.step % EVERY:
             return dict(self.last)
         self._measure()
-        center, eddies = self.found["center"], self.found["stream_function"]
+        center, eddies = self.found["center"], self.found.get("stream_function")
         values = (
             # history: the last measurement until the next one
             *(center[f"{name}_m_s"] for name in CENTER),
-            *(eddies[f"{name}_m2_s"] for name in EDDIES),
+            *(eddies[f"{name}_m2_s"] for name in EDDIES if eddies),
         )
         return self.record(view.time, values)
 
@@ -116,8 +124,9 @@ class BoxFlow(Observer):
             "width_m": box.width,
             "height_m": box.height,
             **lines_of(view, box),
-            "stream_function": eddies_of(view, box),
         }
+        if view.dimension == 2:
+            self.found["stream_function"] = eddies_of(view, box)
 
     def summary(self) -> dict[str, Any]:
         """`box`: size, center lines and their extrema, stream function; at the end."""

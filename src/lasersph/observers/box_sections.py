@@ -16,25 +16,34 @@ from dataclasses import dataclass
 import numpy as np
 
 from lasersph.observers.interpolation import interpolate
+from lasersph.particles.faces import ENDS
 
 FINER = 3
 
 
 @dataclass(frozen=True)
 class Box:
-    """Edges of a box [m]."""
+    """Edges of a box [m]; front and back of a block, whose sections lie half way between them."""
 
     left: float
     right: float
     bottom: float
     top: float
+    front: float = 0.0
+    back: float = 0.0
 
     @classmethod
     def around(cls, position: np.ndarray, width: np.ndarray) -> Box:
-        """The box that particles on a lattice fill; position and width (2, n) [m]."""
-        low = np.min(position - 0.5 * width, axis=1)
-        high = np.max(position + 0.5 * width, axis=1)
-        return cls(float(low[0]), float(high[0]), float(low[1]), float(high[1]))
+        """The box that particles on a lattice fill; position and width (d, n) [m]."""
+        low = np.min(position - 0.5 * width, axis=1).tolist()
+        high = np.max(position + 0.5 * width, axis=1).tolist()
+        across = (low[1], high[1]) if len(low) == 3 else ()
+        return cls(low[0], high[0], low[-1], high[-1], *across)
+
+    @property
+    def edges(self) -> list[float]:
+        """All of them: left, right, bottom, top, front and back [m]."""
+        return [self.left, self.right, self.bottom, self.top, self.front, self.back]
 
     @property
     def width(self) -> float:
@@ -46,6 +55,16 @@ class Box:
         """Along z [m]."""
         return self.top - self.bottom
 
+    @property
+    def breadth(self) -> float:
+        """Along y [m]; 0 of a section."""
+        return self.back - self.front
+
+    def in_section(self, x: np.ndarray, z: np.ndarray) -> np.ndarray:
+        """Points (d, m) at some x and z (m,), in a block half way between front and back [m]."""
+        middle = np.full(x.shape, 0.5 * (self.front + self.back))
+        return np.stack([x, middle, z] if self.breadth else [x, z])
+
     def across(self, shares: np.ndarray) -> np.ndarray:
         """x at some shares of the width, counted from the left [m]."""
         return self.left + self.width * shares
@@ -55,12 +74,29 @@ class Box:
         return self.bottom + self.height * shares
 
     def along(self, side: str, shares: np.ndarray) -> np.ndarray:
-        """Points (2, m) of a side, counted from the left or from the bottom [m]."""
+        """Points (d, m) of a side, counted from the left or from the bottom [m].
+
+        Of a block those of all pairs of shares, (d, m^2).
+        """
+        if self.breadth:
+            return self._over(side, shares)
         if side in ("left", "right"):
             x = self.left if side == "left" else self.right
             return np.stack([np.full(shares.size, x), self.up(shares)])
         z = self.bottom if side == "bottom" else self.top
         return np.stack([self.across(shares), np.full(shares.size, z)])
+
+
+    def _over(self, side: str, shares: np.ndarray) -> np.ndarray:
+        """Points (3, m^2) of a side of a block [m]."""
+        axis, end = ENDS[side]
+        places = [
+            self.across(shares),
+            self.front + self.breadth * shares,
+            self.up(shares),
+        ]
+        places[axis] = np.array([self.edges[2 * (0, 2, 1)[axis] + end]])
+        return np.stack([one.ravel() for one in np.meshgrid(*places, indexing="ij")])
 
 
 @dataclass(frozen=True)
@@ -79,17 +115,17 @@ def center_lines(
     """Velocity along the two lines through the middle of a box.
 
     Args:
-        position, velocity: (2, n) [m], [m/s].
+        position, velocity: (d, n) [m], [m/s].
         shares: (m,) of the height and of the width, from 0 to 1.
     """
     # both lines in one call: half the width upright, half the height level
     middle = np.full(shares.size, 0.5)
     x, z = box.across(shares), box.up(shares)
-    upward = np.stack([box.across(middle), z])
-    across = np.stack([x, box.up(middle)])
+    upward = box.in_section(box.across(middle), z)
+    across = box.in_section(x, box.up(middle))
     places = np.concatenate([upward, across], axis=1)
     found = interpolate(position, velocity, places, degree=2)
-    return CenterLines(z, found[0, : shares.size], x, found[1, shares.size :])
+    return CenterLines(z, found[0, : shares.size], x, found[-1, shares.size :])
 
 
 def stream_function(
@@ -122,7 +158,7 @@ def wall_temperature(
     """Mean temperature of a side [K], extrapolated from particles.
 
     Args:
-        position: (2, n) [m]. temperature: (n,) [K]. count: points along the side.
+        position: (d, n) [m]. temperature: (n,) [K]. count: points along the side.
     """
     # places in the middle of equal parts of the side
     points = box.along(side, (np.arange(count) + 0.5) / count)

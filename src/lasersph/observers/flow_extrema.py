@@ -171,7 +171,7 @@ def surface_extrema(view: View, margin: float = 0.0, line: float = 0.0) -> list[
     chosen = flow.flows[flow.surface] & (x > 0.0)
     if np.count_nonzero(chosen) < 3:
         return []
-    speed = np.concatenate([[0.0], np.abs(flow.surface_velocity[chosen]), [0.0]])
+    speed = np.concatenate([[0.0], flow.surface_speed[chosen], [0.0]])
     place = np.concatenate([[0.0], x[chosen], [0.0]])
     # peaks that stand out, and their places by the weight of their tops
     least = PROMINENCE * float(np.max(speed))

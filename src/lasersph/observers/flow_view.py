@@ -16,6 +16,15 @@ import numpy as np
 from lasersph.particles.faces import LATERAL
 
 
+def side_images(side: str, images: int) -> int:
+    """How many times the computed part of a side makes up the whole, of a box of `images` parts.
+
+    Half of a box ends at x = 0, a quarter at y = 0 as well; a side is whole along its own normal.
+    """
+    mirrored = {1: (), 2: (LATERAL[0],), 4: LATERAL}[images]
+    return 2 ** sum(side not in pair for pair in mirrored)
+
+
 @dataclass(frozen=True)
 class FlowView:
     """Flow of a run after a step; n particles, s of them at the flat surface.
@@ -28,8 +37,10 @@ class FlowView:
             where a box has no free surface.
         surface_temperature: (s,) temperature of the surface above them [K]; where a surface that
             moves is solid, that of the particle itself, half a spacing below.
-        surface_gradient: (s,) its derivative dT/dx [K/m].
-        surface_velocity: (s,) horizontal velocity extrapolated to the surface [m/s], 0 on solid.
+        surface_gradient: (s,) its derivative dT/dx; in 3-D the size of its gradient along the
+            surface, 0 where nothing flows near it [K/m].
+        surface_velocity: (s,) horizontal velocity extrapolated to the surface, in 3-D (2, s) along
+            x and y [m/s]; 0 on solid.
         surface_pressure: (s,) dynamic pressure at the surface [Pa].
         divergence_rms, divergence_max: of the velocity of flowing particles after the projection
             [1/s].
@@ -76,10 +87,16 @@ class FlowView:
     wall_pressing: Mapping[str, float] = field(default_factory=dict)
     full_step: float = 0.0
 
+    @property
+    def surface_speed(self) -> np.ndarray:
+        """(s,) size of the horizontal velocity at the surface [m/s]."""
+        if self.surface_velocity.ndim == 1:
+            return np.abs(self.surface_velocity)
+        return np.sqrt(np.sum(self.surface_velocity**2, axis=0))
+
     def of_whole(self, images: int) -> Self:
         """The same with the heat through level sides of a computed half and its mirror image."""
         heat = {
-            side: heat if side in LATERAL[0] else images * heat
-            for side, heat in self.wall_heat.items()
+            side: side_images(side, images) * heat for side, heat in self.wall_heat.items()
         }
         return replace(self, wall_heat=heat)

@@ -4,7 +4,7 @@ At a place x the polynomial sum_k c_k p_k(x_j - x) is fitted to the closest part
 
     sum_j w_j [ f_j - sum_k c_k p_k(x_j - x) ]^2 -> min,   w_j = (1 - |x_j - x|^2 / R^2)^2,
 
-so that c_0 is the value and c_1, c_2 are the slopes there. Fields of the polynomial's degree are
+so that c_0 is the value and c_1, c_2 (and c_3) are the slopes there. Fields of the polynomial's degree are
 reproduced exactly, however disordered the particles, also at a wall or a surface half a spacing
 beyond the last row, where the fit extrapolates (moving least squares: Lancaster and Salkauskas,
 Math. Comp. 37 (1981) 141).
@@ -12,11 +12,13 @@ Math. Comp. 37 (1981) 141).
 
 from __future__ import annotations
 
+from itertools import combinations_with_replacement
+
 import numpy as np
 
-NEIGHBORS = {1: 12, 2: 21}
-"""Particles taken for a fit in the plane, by degree: twice or more the unknowns, in all
-directions also beside a wall."""
+NEIGHBORS = {(2, 1): 12, (2, 2): 21, (3, 1): 24, (3, 2): 50}
+"""Particles taken for a fit, by dimension and degree: twice or more the unknowns, in all directions
+also beside a wall."""
 MARGIN = 1.01
 """Radius R over the distance of the farthest particle taken, whose weight thereby almost vanishes:
 which of several equally far ones is taken does not matter."""
@@ -30,19 +32,20 @@ def local_fit(
     """Value and slopes of fields at places.
 
     Args:
-        position: (2, n) of the particles [m].
+        position: (d, n) of the particles [m], d = 2 or 3.
         values: (n,) or (fields, n).
-        places: (2, m) [m].
+        places: (d, m) [m].
         degree: of the polynomial, 1 or 2.
 
     Returns:
-        (3, m) or (3, fields, m): value, derivative along x, derivative along z.
+        (1 + d, m) or (1 + d, fields, m): value, derivatives along x (and y) and z.
     """
     from scipy.spatial import KDTree
 
     fields = np.atleast_2d(values)
     # the closest particles of each place, by a tree
-    wanted = min(NEIGHBORS[degree], position.shape[1])
+    dimension = position.shape[0]
+    wanted = min(NEIGHBORS[dimension, degree], position.shape[1])
     distance, near = KDTree(position.T).query(places.T, k=wanted)
     distance, near = distance.reshape(-1, wanted), near.reshape(-1, wanted)
 
@@ -51,10 +54,10 @@ def local_fit(
     weight = (1.0 - (distance / radius) ** 2) ** 2
 
     # monomials of the offset over the radius, so that moments are of one size
-    x, z = (position[:, near] - places[:, :, None]) / radius
-    basis = [np.ones_like(x), x, z]
+    offset = (position[:, near] - places[:, :, None]) / radius
+    basis = [np.ones_like(offset[0]), *offset]
     if degree == 2:
-        basis += [x * x, x * z, z * z]
+        basis += [a * b for a, b in combinations_with_replacement(offset, 2)]
     terms = np.stack(basis, axis=-1)
 
     # normal equations; what the particles do not span is left out by the pseudo-inverse
@@ -63,7 +66,7 @@ def local_fit(
     sums = np.einsum("mka,fmk->maf", weighted, fields[:, near])
     found = np.linalg.pinv(moments, rcond=CONDITION, hermitian=True) @ sums
     # slopes in 1/m again
-    slopes = found[:, 1:3] / radius[:, :, None]
+    slopes = found[:, 1 : 1 + dimension] / radius[:, :, None]
     result = np.concatenate([found[:, :1], slopes], axis=1).transpose(1, 2, 0)
     return result if np.ndim(values) == 2 else result[:, 0]
 

@@ -182,16 +182,18 @@ def flow_observers(
         iterations=iterations,
     )
     heat = observed.members
-    flow: tuple[Observer, ...] = (FlowSpeed(covered), SurfaceSpeed(), SurfacePressure())
+    flow: tuple[Observer, ...] = (FlowSpeed(covered), SurfaceSpeed(dimension), SurfacePressure())
     if topography is not None:
         flow = (*flow, topography)
 
     # a closed box has no pool and no vapor, but walls and eddies
     if box:
         here = (one for one in heat if not isinstance(one, MeltPool | Vaporization))
-        return Observers([*here, *flow, BoxFlow(), WallExchange()])
+        return Observers([*here, *flow, BoxFlow(dimension), WallExchange(dimension)])
     cells = (FlowCells(),) if covered > dimension and topography is None else ()
-    return Observers([*heat, *flow, FlowExtrema(), *cells])
+    # extrema of a line along x, which a surface in 3-D is not
+    extrema = (FlowExtrema(),) if dimension == 2 else ()
+    return Observers([*heat, *flow, *extrema, *cells])
 
 
 def ablation_observers(

@@ -49,9 +49,12 @@ def snapshot_fields(view: View) -> dict[str, np.ndarray]:
             "surface_velocity": flow.surface_velocity,
             "lid_pressure": flow.surface_pressure,
         }
+        if view.dimension == 3:  # a vector along the surface
+            level = np.zeros_like(flow.surface_temperature)
+            at_surface["surface_velocity"] = np.vstack([flow.surface_velocity, level])
         for name, values in at_surface.items():
-            fields[name] = np.zeros(count)
-            fields[name][flow.surface] = values
+            fields[name] = np.zeros((*values.shape[:-1], count))
+            fields[name][..., flow.surface] = values
         marks["flows"] = flow.flows.astype(np.uint8)
     # so has matter that ablates
     if view.ablation is not None:

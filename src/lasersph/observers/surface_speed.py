@@ -1,14 +1,14 @@
 """Speed of the liquid at and below the surface, and the layer that the surface drags along.
 
-At the place x_m of the largest |u| at the surface the horizontal velocity is followed downward:
-u one spacing below the surface, and the depth at which it changes sign, which is the thickness
-delta_m of the layer that flows outward. From it and from the mean gradient of the temperature
+At the place x_m of the largest |u| at the surface the horizontal velocity is followed downward,
+in 3-D its part along the velocity at x_m: u one spacing below the surface, and the depth at which
+it changes sign, which is the thickness delta_m of the layer that flows outward. From it and from the mean gradient of the temperature
 along the fluid surface on that side follow the estimates
 
     u_tc = delta_m / eta |d gamma/dT <dT/dx>|,    t_tc = (period / 2) / u_tc
 
 [Demuth2020, eqs. (79), (80)]. The return flow is the largest speed against u(x_m) on the side of
-x = 0 on which x_m lies. Where the pool is one cell deep or flows one way down to its bottom, the
+x = 0 on which x_m lies, in 3-D of the plane through the axis normal to x_m. Where the pool is one cell deep or flows one way down to its bottom, the
 layer reaches down to the lowest flowing particle below x_m.
 """
 
@@ -25,6 +25,8 @@ from lasersph.observers.view import View
 
 COLUMN_WIDTH = 5.0
 """Half width, in spacings, of the column of particles from which u(z) is interpolated."""
+FASTEST_Y = Quantity("flow_surface_speed_max_y_m", "m", "y of the fastest place of the surface")
+FASTEST_Y_AT = "flow.surface_speed_max_y_m"
 AT_PEAK = {
     "flow_surface_speed_max_x_m": "flow.surface_speed_max_x_m",
     "flow_layer_thickness_m": "flow.layer_thickness_m",
@@ -80,8 +82,10 @@ class SurfaceSpeed(Observer):
         Quantity("flow_layer_thickness_m", "m", "thickness of the layer that flows outward"),
         Quantity("flow_gradient_mean_K_m", "K/m", "mean of |dT/dx| along the liquid surface"),
         Quantity("flow_estimate_m_s", "m/s", "speed estimated from that layer"),
+        FASTEST_Y,
     )
     results = (
+        Quantity(FASTEST_Y_AT, "m", "y of the fastest place of the surface"),
         Quantity("flow.row_depth_m", "m", "depth of the first row of particles"),
         Quantity("flow.below_depth_m", "m", "depth one spacing below"),
         Quantity(
@@ -102,7 +106,13 @@ class SurfaceSpeed(Observer):
     )
     kept = ("at_peak",)
 
-    def __init__(self) -> None:
+    def __init__(self, dimension: int = 2) -> None:
+        """
+        Args:
+            dimension: 2 or 3.
+        """
+        if dimension < 3:
+            self.columns = self.columns[:-1]
         super().__init__()
         self.at_peak: dict[str, float] = {}
 
@@ -113,17 +123,20 @@ class SurfaceSpeed(Observer):
         values = (0.0,) * len(self.columns)
         # the row of particles and the surface over it
         if np.any(is_wet):
-            speed = np.where(is_wet, np.abs(flow.surface_velocity), 0.0)
-            of_row = float(np.max(np.abs(flow.velocity[0, flow.surface])))
+            speed = np.where(is_wet, flow.surface_speed, 0.0)
+            row = flow.velocity[:-1, flow.surface]
+            of_row = float(np.max(np.sqrt(np.sum(row * row, axis=0))))
             fastest = int(np.argmax(speed))
-            mean = mean_along(view.position[0, flow.surface], speed, is_wet)
+            mean = mean_along(view.position[:-1, flow.surface], speed, is_wet)
             values = (float(np.max(speed)), mean, of_row, *below_the_peak(view, flow, fastest))
+            values += tuple(view.position[1:-1, flow.surface[fastest]].tolist())
         row = self.record(view.time, values)
         # at the time of the fastest surface: the layer below it and its estimates
         surface = self.peak["flow_surface_speed_max_m_s"]
         if surface.last == view.time and surface.value > 0.0:
             self.at_peak = {key: float(row[column]) for column, key in AT_PEAK.items()}
             self.at_peak |= {
+                **({} if view.dimension < 3 else {FASTEST_Y_AT: float(row[FASTEST_Y.key])}),
                 "flow.row_depth_m": float(-view.position[-1, flow.surface].mean()),
                 "flow.below_depth_m": spacing_at(view, flow),
                 "period": period(view),
@@ -147,13 +160,14 @@ class SurfaceSpeed(Observer):
         return super().summary() if self.at_peak else {}
 
 
-def mean_along(x: np.ndarray, values: np.ndarray, chosen: np.ndarray) -> float:
-    """Mean over length of values (m,) at places x (m,) of the surface [m], of those chosen (m,).
+def mean_along(places: np.ndarray, values: np.ndarray, chosen: np.ndarray) -> float:
+    """Mean over length of values (m,) at places (m,) or (2, m) of the surface [m], of those chosen.
 
     Each counts as long as it lies from its neighbors, so that none which joins or leaves the row
-    moves the mean as one of many.
+    moves the mean as one of many; in 3-D, where there are many, as much as any other.
     """
-    if x.size < 2:
+    x, *y = np.atleast_2d(places)
+    if x.size < 2 or y:
         # one particle has no length to average over
         return float(np.mean(values[chosen]))
     # length that each particle stands for, of neighbors along x
@@ -165,46 +179,55 @@ def mean_along(x: np.ndarray, values: np.ndarray, chosen: np.ndarray) -> float:
 
 def below_the_peak(view: View, flow: FlowView, place: int) -> tuple[float, ...]:
     """The columns from the fastest place on, for surface particle number `place`."""
-    x = float(view.position[0, flow.surface[place]])
+    at = view.position[:-1, flow.surface[place]]
 
     # largest speed against the surface's, on its side
-    u = float(flow.surface_velocity[place])
-    direction = 1.0 if u >= 0.0 else -1.0
-    side = view.position[0] * np.sign(x) >= 0.0
-    against = np.max(-direction * flow.velocity[0], where=flow.flows & side, initial=0.0)
+    u = np.atleast_2d(flow.surface_velocity)[:, place]
+    direction = u / np.sqrt(u @ u) if np.any(u) else np.eye(u.size)[0]
+    side = is_beside(view.position[:-1], at)
+    against = np.max(-(direction @ flow.velocity[:-1]), where=flow.flows & side, initial=0.0)
 
     # the layer below, its thickness, and the speed one spacing down
-    depth, along = velocity_below(view, flow, place)
-    thickness = zero_of(depth, direction * along)
-    gradient = mean_gradient(view, flow, x)
+    depth, along = velocity_below(view, flow, place, direction)
+    thickness = zero_of(depth, along)
+    gradient = mean_gradient(view, flow, at)
     stress = abs(flow.surface_tension_slope * gradient)
     below = abs(float(np.interp(spacing_at(view, flow), depth, along)))
-    return x, below, float(against), thickness, gradient, thickness * stress / flow.viscosity
+    estimate = thickness * stress / flow.viscosity
+    return float(at[0]), below, float(against), thickness, gradient, estimate
 
 
-def velocity_below(view: View, flow: FlowView, place: int) -> tuple[np.ndarray, np.ndarray]:
+def is_beside(places: np.ndarray, at: np.ndarray) -> np.ndarray:
+    """Which of some places (d - 1, m) lie on the side of the axis on which `at` (d - 1,) lies."""
+    return at @ places >= 0.0
+
+
+def velocity_below(
+    view: View, flow: FlowView, place: int, direction: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
     """Horizontal velocity against depth below a place of the surface.
 
     Args:
-        place: number in `flow.surface`.
+        place: number in `flow.surface`. direction: (d - 1,) unit vector that it is taken along.
 
     Returns:
         Depths (m,) [m] from 0 down to half a spacing below the lowest flowing particle there, and
         velocities (m,) [m/s], the first one extrapolated to the surface.
     """
     step = spacing_at(view, flow)
-    x = view.position[0, flow.surface[place]]
+    at = view.position[:-1, flow.surface[place]]
     # a column of particles around the place, as deep as the liquid there
-    near = np.flatnonzero(np.abs(view.position[0] - x) < COLUMN_WIDTH * step)
+    beside = np.max(np.abs(view.position[:-1] - at[:, None]), axis=0)
+    near = np.flatnonzero(beside < COLUMN_WIDTH * step)
     wet = near[flow.flows[near]]
-    over = wet[np.abs(view.position[0, wet] - x) < step]
+    over = wet[beside[wet] < step]
     bottom = float(-np.min(view.position[-1, over])) + 0.5 * step
     depth = np.arange(0.5, max(bottom / step, 1.0) + 0.5, 0.5) * step
     fine = near[view.position[-1, near] > -bottom - COLUMN_WIDTH * step]
     # values at each half spacing, the surface itself first
-    places = np.stack([np.full(depth.size, x), -depth])
-    along = interpolate(view.position[:, fine], flow.velocity[0, fine], places)
-    first = float(flow.surface_velocity[place])
+    places = np.vstack([np.repeat(at[:, None], depth.size, axis=1), -depth])
+    along = interpolate(view.position[:, fine], direction @ flow.velocity[:-1, fine], places)
+    first = float(direction @ np.atleast_2d(flow.surface_velocity)[:, place])
     return np.concatenate([[0.0], depth]), np.concatenate([[first], along])
 
 
@@ -219,10 +242,10 @@ def zero_of(depth: np.ndarray, values: np.ndarray) -> float:
     return float(depth[k - 1] + share * (depth[k] - depth[k - 1]))
 
 
-def mean_gradient(view: View, flow: FlowView, x: float) -> float:
-    """Mean of |dT/dx| over the fluid surface on the side of x = 0 on which `x` lies [K/m]."""
-    lateral = view.position[0, flow.surface]
-    chosen = flow.flows[flow.surface] & (lateral * np.sign(x) >= 0.0)
+def mean_gradient(view: View, flow: FlowView, at: np.ndarray) -> float:
+    """Mean of |dT/dx| over the fluid surface on the side of the axis on which `at` (d - 1,) lies
+    [K/m]."""
+    chosen = flow.flows[flow.surface] & is_beside(view.position[:-1, flow.surface], at)
     return float(np.mean(np.abs(flow.surface_gradient[chosen]))) if np.any(chosen) else 0.0
 
 

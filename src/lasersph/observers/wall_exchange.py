@@ -22,15 +22,17 @@ those of the last quarter of the time, so that no single particle moves them.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from math import prod
 
 import numpy as np
 
 from lasersph.observers.box_sections import Box, wall_temperature
 from lasersph.observers.flow_speed import flow_of
+from lasersph.observers.flow_view import side_images
 from lasersph.observers.observer import Observer, Row
 from lasersph.observers.quantity import Quantity
 from lasersph.observers.view import View
-from lasersph.particles.faces import LATERAL, PLANE, face_pairs
+from lasersph.particles.faces import ENDS, PLANE, face_pairs
 
 EVERY = 50
 """Steps between two looks at temperatures of sides that are not given, and two marks."""
@@ -41,6 +43,8 @@ SMALLEST_DIFFERENCE = 1e-9
 LAST = 0.25
 """Share of the time over which the summary takes means."""
 MEAN = "mean"
+SIDES = tuple(ENDS)
+"""Of a block; a section has those of `PLANE`."""
 FORCES = {
     "drag": "drag of the wall on the liquid",
     "pressing": "force of the liquid onto the wall",
@@ -57,8 +61,8 @@ class WallExchange(Observer):
         " heat through bottom and surface is that of the whole, forces are those of the half."
     )
     columns = (
-        *(Quantity(f"box_heat_{side}_J", "J", f"heat that has entered, {side}") for side in PLANE),
-        *(Quantity(f"box_nusselt_{side}", "", f"Nusselt number, {side}") for side in PLANE),
+        *(Quantity(f"box_heat_{side}_J", "J", f"heat that has entered, {side}") for side in SIDES),
+        *(Quantity(f"box_nusselt_{side}", "", f"Nusselt number, {side}") for side in SIDES),
         Quantity(f"box_nusselt_{MEAN}", "", "domain-averaged Nusselt number"),
         *(
             Quantity(f"box_{force}_{side}_N_m", "N/m", f"{words}, {side}")
@@ -69,7 +73,7 @@ class WallExchange(Observer):
     results = (
         *(
             one
-            for side in PLANE
+            for side in SIDES
             for one in (
                 Quantity(f"box.heat.temperature_{side}_K", "K", f"mean temperature, {side}"),
                 Quantity(
@@ -79,6 +83,7 @@ class WallExchange(Observer):
                 *(
                     Quantity(f"box.walls.{force}_{side}_N_m", "N/m", f"{words}, {side}")
                     for force, words in FORCES.items()
+                    if side in PLANE
                 ),
             )
         ),
@@ -89,7 +94,20 @@ class WallExchange(Observer):
     )
     kept = ("size", "images", "conductivity", "temperature", "between", "sums", "marks")
 
-    def __init__(self) -> None:
+    def __init__(self, dimension: int = 2) -> None:
+        """
+        Args:
+            dimension: 2 or 3; a block exchanges heat with six sides, and no force is booked.
+        """
+        self.sides = SIDES if dimension == 3 else PLANE
+        self.forces = tuple(f"{force}_{side}" for force in FORCES for side in PLANE)
+        if dimension == 3:
+            self.forces = ()
+        # of the columns of all boxes, those that this one has
+        measured = {f"box_{force}_N_m" for force in self.forces} | {f"box_nusselt_{MEAN}"}
+        for side in self.sides:
+            measured |= {f"box_heat_{side}_J", f"box_nusselt_{side}"}
+        self.columns = tuple(one for one in self.columns if one.key in measured)
         super().__init__()
         self.size = [0.0, 0.0]
         self.images = 1
@@ -97,7 +115,7 @@ class WallExchange(Observer):
         self.temperature: dict[str, float] = {}
         self.between: list[str] = []
         self.sums = {"time": 0.0, MEAN: 0.0} | {
-            f"{kind}_{side}": 0.0 for kind in ("heat", *FORCES) for side in PLANE
+            name: 0.0 for name in (*(f"heat_{side}" for side in self.sides), *self.forces)
         }
         self.marks: list[dict[str, float]] = []
 
@@ -111,19 +129,20 @@ class WallExchange(Observer):
 
         # sums since the start; their differences are means over any span of time
         self.sums = {"time": view.time, MEAN: before[MEAN] + view.time_step * mean}
-        self.sums |= {f"heat_{side}": flow.wall_heat.get(side, 0.0) for side in PLANE}
-        self.sums |= {f"drag_{side}": flow.wall_impulse.get(side, 0.0) for side in PLANE}
-        self.sums |= {f"pressing_{side}": flow.wall_pressing.get(side, 0.0) for side in PLANE}
+        self.sums |= {f"heat_{side}": flow.wall_heat.get(side, 0.0) for side in self.sides}
+        if self.forces:
+            self.sums |= {f"drag_{side}": flow.wall_impulse.get(side, 0.0) for side in PLANE}
+            self.sums |= {f"pressing_{side}": flow.wall_pressing.get(side, 0.0) for side in PLANE}
         # marks of the sums, for the mean over the last quarter
         if view.step % EVERY == 0:
             self.marks.append(self.sums)
         rate = rates(before, self.sums)
         numbers = self._nusselt(rate)
         values = (
-            *(self.sums[f"heat_{side}"] for side in PLANE),
-            *(numbers.get(side, 0.0) for side in PLANE),
+            *(self.sums[f"heat_{side}"] for side in self.sides),
+            *(numbers.get(side, 0.0) for side in self.sides),
             mean,
-            *(rate[f"{force}_{side}"] for force in FORCES for side in PLANE),
+            *(rate[force] for force in self.forces),
         )
         return self.record(view.time, values)
 
@@ -137,7 +156,7 @@ class WallExchange(Observer):
         )
         rate = rates(start, self.sums)
         found: dict[str, object] = {"box.walls.from_s": start["time"]}
-        for force in (f"{force}_{side}" for force in FORCES for side in PLANE):
+        for force in self.forces:
             found[f"box.walls.{force}_N_m"] = rate[force]
         # temperatures and fluxes of the sides, Nusselt numbers of those that drive the flow
         for side, temperature in self.temperature.items():
@@ -159,7 +178,7 @@ class WallExchange(Observer):
         # bounds once: walls stay where they are
         if not any(self.size):
             box = Box.around(view.position, view.width)
-            self.size = [box.left, box.right, box.bottom, box.top]
+            self.size = box.edges
         box = Box(*self.size)
         # one temperature everywhere: no side drives a flow
         known = np.append(view.temperature, list(flow.wall_temperature.values()))
@@ -172,12 +191,12 @@ class WallExchange(Observer):
             side: flow.wall_temperature[side]
             if side in flow.wall_temperature
             else wall_temperature(view.position, view.temperature, box, side, NODES)
-            for side in PLANE
+            for side in self.sides
         }
 
         # pairs of sides of given temperatures first, else pairs that let heat through
         given, crossed = (
-            [pair for pair in face_pairs(2) if all(side in sides for side in pair)]
+            [pair for pair in face_pairs(view.dimension) if all(side in sides for side in pair)]
             for sides in (flow.wall_temperature, flow.conducting_sides)
         )
         # the pair that differs most drives the flow
@@ -195,7 +214,7 @@ class WallExchange(Observer):
             return 0.0
         box = Box(*self.size)
         # k dT/L between the sides that drive the flow, across the box between them
-        length = box.width if tuple(self.between) == LATERAL[0] else box.height
+        length = (box.width, box.breadth, box.height)[ENDS[self.between[0]][0]]
         return self.conductivity * self._difference(*self.between) / length
 
     def _nusselt(self, rate: Mapping[str, float]) -> dict[str, float]:
@@ -211,7 +230,7 @@ class WallExchange(Observer):
             return 0.0
 
         # 1 + <u T>, of enthalpies so that melting counts
-        axis = 0 if tuple(self.between) == LATERAL[0] else 1
+        axis = ENDS[self.between[0]][0]
         lower, upper = (self.temperature[side] for side in self.between)
         weight = view.volume / np.sum(view.volume)
         h = view.enthalpy - weight @ view.enthalpy
@@ -219,9 +238,12 @@ class WallExchange(Observer):
         return 1.0 + (convection if lower > upper else -convection) / conduction
 
     def _area(self, side: str) -> float:
-        """Length of a side [m], of the whole box where half is computed."""
+        """Length of a side [m], in 3-D its area [m^2], of the whole box where half is computed."""
         box = Box(*self.size)
-        return box.height if side in LATERAL[0] else self.images * box.width
+        edges = [box.width, box.breadth or 1.0, box.height]
+        # the edges along the other axes
+        edges[ENDS[side][0]] = 1.0
+        return side_images(side, self.images) * prod(edges)
 
 
 def rates(start: Mapping[str, float], end: Mapping[str, float]) -> dict[str, float]:

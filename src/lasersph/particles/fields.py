@@ -88,6 +88,7 @@ FLOW = _table(
         "settled",
         "m/s",
         "velocity of ghosts over their sources that viscosity has settled",
+        "vector",
         is_kept=True,
     ),
     Field("was_fluid", "was_fluid", "1", "1 where it flowed one step ago", is_kept=True),

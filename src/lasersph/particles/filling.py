@@ -128,13 +128,15 @@ def fill(
     sides: str,
     left: str | None = None,
     right: str | None = None,
+    front: str | None = None,
+    back: str | None = None,
 ) -> Filling:
     """Particles of the layers with dummies as the faces ask: FREE, MIRROR, PERIODIC or DIRICHLET.
 
-    Left and right are as the sides where not given; opposite faces are periodic in pairs. Nothing
-    lies beyond an axis of revolution.
+    Left, right, front and back are as the sides where not given; opposite faces are periodic in
+    pairs. Nothing lies beyond an axis of revolution.
     """
-    kinds = {LEFT: left or sides, RIGHT: right or sides, FRONT: sides, BACK: sides}
+    kinds = {LEFT: left or sides, RIGHT: right or sides, FRONT: front or sides, BACK: back or sides}
     if layers.geometry.is_axisymmetric:
         kinds[LEFT] = FREE
     kinds |= {SURFACE: surface, BOTTOM: bottom}

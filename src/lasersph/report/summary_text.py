@@ -209,17 +209,11 @@ def box_flow(summary: dict[str, Any]) -> list[str]:
     size = f"{quantity(box['width_m'], 'm')} wide and {quantity(box['height_m'], 'm')} high"
     if not flow["speed_max_m_s"]:
         return [f"The liquid in the box, {size}, stayed at rest."]
-    # The strongest eddy is the larger of both extremes of the stream function.
-    eddies, center = box["stream_function"], box["center"]
-    strongest = max(("max", "min"), key=lambda name: abs(eddies[f"{name}_m2_s"]))
-    turning = "counterclockwise" if strongest == "max" else "clockwise"
-    x, z = (quantity(eddies[f"{strongest}_{axis}_m"], "m", 3) for axis in "xz")
+    center = box["center"]
     found = [
         f"The liquid in the box, {size}, reached at most"
         f" {quantity(flow['speed_max_m_s'], 'm/s')}, at {quantity(flow['speed_max_at_s'], 's')}.",
-        f"At {quantity(box['time_s'], 's')} its strongest eddy turned {turning} around x = {x},"
-        f" z = {z}, with a stream function of"
-        f" {quantity(eddies[f'{strongest}_m2_s'], 'm²/s')}; on the center lines u ran from"
+        f"At {quantity(box['time_s'], 's')} {_strongest_eddy(box)}on the center lines u ran from"
         f" {quantity(center['u_min_m_s'], 'm/s')} to {quantity(center['u_max_m_s'], 'm/s')} and w"
         f" from {quantity(center['w_min_m_s'], 'm/s')} to {quantity(center['w_max_m_s'], 'm/s')}.",
     ]
@@ -231,6 +225,21 @@ def box_flow(summary: dict[str, Any]) -> list[str]:
         sides = ", ".join(f"{shown(value)} ({names[key]})" for key, value in numbers.items())
         found.append(f"Nusselt numbers over the last quarter of the time: {sides}.")
     return found
+
+
+def _strongest_eddy(box: dict[str, Any]) -> str:
+    """Words for the larger of both extremes of the stream function; none of a block."""
+    eddies = box.get("stream_function")
+    if eddies is None:
+        return ""
+    strongest = max(("max", "min"), key=lambda name: abs(eddies[f"{name}_m2_s"]))
+    turning = "counterclockwise" if strongest == "max" else "clockwise"
+    x, z = (quantity(eddies[f"{strongest}_{axis}_m"], "m", 3) for axis in "xz")
+    psi = quantity(eddies[f"{strongest}_m2_s"], "m²/s")
+    return (
+        f"its strongest eddy turned {turning} around x = {x}, z = {z}, with a stream function of "
+        f"{psi}; "
+    )
 
 
 def crater(summary: dict[str, Any]) -> list[str]:

@@ -8,8 +8,6 @@ from lasersph.case import Case
 
 EDGE_TOLERANCE = 1e-9
 """Share of the width by which an axis may miss the edge. Rounding: of lengths."""
-
-
 def halves_spot(case: Case) -> tuple[bool, bool]:
     """Whether the axis of a resting spot lies on the lower and on the upper end of x."""
     return _lies_on_ends(case, 0) if case.solver.dimensions > 1 else (False, False)
@@ -23,8 +21,8 @@ def mirror_images(case: Case) -> int:
     lateral = range(case.solver.dimensions - 1)
     # x > 0 alone, or an edge through the axis of the spot: each doubles what is computed
     is_half = [any(_lies_on_ends(case, axis)) for axis in lateral]
-    if is_half and case.domain.extent == "half":
-        is_half[0] = True
+    for axis, _ in enumerate(case.domain.planes_of_symmetry):
+        is_half[axis] = True
     return 2 ** sum(is_half)
 
 

@@ -1,8 +1,9 @@
 """`FlatSurface`: a free surface that stays flat, as what it gives a step of the flow.
 
     normal velocity       v . n = 0, which also the ghosts beyond it show
-    tangential stress     eta d(v . t)/dn = t . grad_s gamma(T)         [Demuth2020, eq. (15)]
-                          with the mean eta of the pairs across, which pass on all of it
+    tangential stress     eta d(P v)/dn = tau = grad_s gamma(T)          [Demuth2020, eq. (15)]
+                          with the mean eta of the pairs across, which pass on all of it,
+                          P = 1 - n n
     pressure              dp/dn = 0
     heat                  none crosses, unless the case holds the face's temperature or its flux
 
@@ -33,7 +34,7 @@ from lasersph.sph.tangential import (
 )
 from lasersph.surface.columns import product
 from lasersph.surface.pressure_gradient import SymmetricGradient
-from lasersph.surface.surface import Surface, SurfaceNeighbors, SurfaceStep
+from lasersph.surface.surface import Surface, SurfaceNeighbors, SurfaceStep, Vector
 
 LOWEST, HIGHEST = 1.0, 2.0e4
 """Range of temperatures of the table of surface tension [K]. Format: it ends far above any metal.
@@ -73,13 +74,8 @@ def imposed_bump(x, along, mean, amplitude, radius):
     return mean + amplitude * exp(-share * share)
 
 
-def component(g, along):
-    """Part of a vector along the surface."""
-    return dot(g, along)
-
-
 def velocity_jump(tau, depth, fluidity, eta):
-    """2 d tau fluidity / eta [m/s]: by how much a ghost beyond is faster than its source.
+    """2 d tau fluidity / eta [m/s]: by how much a ghost beyond is faster than its source, a vector.
 
     Args:
         fluidity: eta, the viscosity at the liquidus [Pa s], over that of the pairs across.
@@ -98,17 +94,23 @@ def fluidity_across(total_0, total_1):
     return total_0 / total_1 if total_1 > 0.0 else 1.0 + total_1
 
 
+def along_x(dimension: int) -> Vector:
+    """Unit vector along x."""
+    return (1.0,) + (0.0,) * (dimension - 1)
+
+
 class FlatSurface(Surface):
-    """The surface z = `plane`, see `Surface`; its tangent points along x.
+    """The surface z = `plane`, see `Surface`.
 
     Args:
-        count: particles of the whole body. spacing, support: of the particles at it [m].
+        count: particles of the whole body. dimension: d. spacing, support: of the particles at it
+            [m].
         material: gamma(T) or its slope. viscosity: eta at the liquidus [Pa s]. has_stress: whether
             gamma drives the flow. given: the surface's own temperature, where the case gives it.
             pressure_gradient: below it.
 
     Attributes:
-        stress: (n,) tau [Pa].
+        stress: (d, n) tau [Pa].
     """
 
     def __init__(
@@ -116,6 +118,7 @@ class FlatSurface(Surface):
         backend: Backend,
         count: int,
         *,
+        dimension: int,
         plane: float,
         spacing: float,
         support: float,
@@ -125,16 +128,14 @@ class FlatSurface(Surface):
         given: ImposedTemperature | None,
         pressure_gradient: SymmetricGradient,
     ) -> None:
-        super().__init__(backend, count, plane)
+        super().__init__(backend, count, plane, dimension)
         self.pressure_gradient = pressure_gradient
         self.viscosity = viscosity
         self.given = given
         self.has_stress = has_stress
-        self.stress = backend.zeros(count)
-        self.tangent = self.jump_direction
+        self.stress = backend.zeros((dimension, count))
         self._place = {"n": self.normal, "plane": plane, "near": spacing, "far": support}
         self._gamma = backend.zeros(count)
-        self._slope = backend.zeros((len(self.normal), count))
         self._fluidity = backend.asarray(np.ones(count))
         if has_stress:
             T, gamma = surface_tension_table(material)
@@ -145,7 +146,7 @@ class FlatSurface(Surface):
         return self.at_surface
 
     def find(self, position: Array) -> None:
-        """Set marks and depths of the particles at `position`, shape (2, n) [m]."""
+        """Set marks and depths of the particles at `position`, shape (d, n) [m]."""
         out = (self.at_surface, self.near_surface, self.depth)
         self.backend.pointwise(mark_surface, {"x": position}, out, **self._place)
 
@@ -161,12 +162,14 @@ class FlatSurface(Surface):
         self._find_slope(self.temperature, self.gradient, rows, neighbors, mark)
         if not self.has_stress:
             return
-        # stress tau = d gamma/dx at the surface, extended to the particles near it
+        # stress tau = grad_s gamma at the surface, extended to the particles near it
         backend.pointwise(surface_tension, {"T": self.temperature}, self._gamma, **self.table)
         self._find_slope(self._gamma, self.stress, rows, neighbors, mark)
         near = self._rows(self.near_surface, active)
-        found = backend.zeros(self.stress.shape[0])
-        fields = {"f": neighbors.gather(self.stress), "s": mark}
+        # (2-D sees beyond a plane of symmetry that of the source as it is, not mirrored)
+        found = backend.zeros(self.stress.shape)
+        extend = neighbors.mirror if len(self.normal) == 3 else neighbors.gather
+        fields = {"f": extend(self.stress), "s": mark}
         terms, finish = extension_terms, extend_from_surface
         # particles near the surface take the mean stress of those at it
         backend.pair_sum(terms, neighbors.pairs, fields, found, rows=near, finish=finish)
@@ -188,7 +191,7 @@ class FlatSurface(Surface):
 
         # v beyond the surface, which shows its pairs the stress
         fields = {"tau": self.stress, "depth": self.depth, "fluidity": self._fluidity}
-        backend.pointwise(velocity_jump, fields, self.ghost_velocity_jump, eta=self.viscosity)
+        backend.pointwise(velocity_jump, fields, self.velocity_jump, eta=self.viscosity)
 
     def _impose_temperature(self, given: ImposedTemperature, now: SurfaceStep) -> None:
         """Set the temperature to what the case gives in the interval of the step."""
@@ -198,7 +201,7 @@ class FlatSurface(Surface):
             return
         # a mean, and a wave or a bump while it acts
         fields = {"x": now.position}
-        place = {"along": self.tangent, "mean": given.mean}
+        place = {"along": along_x(len(self.normal)), "mean": given.mean}
         place["amplitude"] = drive.share_of(*now.interval) * drive.amplitude
         if isinstance(drive, TemperatureBump):
             self.backend.pointwise(imposed_bump, fields, out, **place, radius=drive.radius)
@@ -208,22 +211,21 @@ class FlatSurface(Surface):
 
     def _rows(self, mark: Array, active: Array) -> Rows:
         """Index array of marked particles that are active."""
-        found = self.backend.zeros(self.stress.shape[0])
+        found = self.backend.zeros(mark.shape[0])
         self.backend.pointwise(product, {"a": mark, "b": active}, found)
         return self.backend.rows_where(found, 1.0)
 
     def _find_slope(
         self, f: Array, out: Array, rows: Rows, neighbors: SurfaceNeighbors, mark: Array
     ) -> None:
-        """Derivative of f along the surface, 0 elsewhere; mark: `at_surface` with ghosts."""
+        """Gradient of f along the surface (d, n), 0 elsewhere; mark: `at_surface` with ghosts."""
         backend, finish = self.backend, tangential_gradient
-        # corrected gradient from the particles at the surface alone, then its part along it
-        backend.fill(self._slope, 0.0)
+        # corrected gradient from the particles at the surface alone, without a part along n
+        backend.fill(out, 0.0)
         fields, n = {"V": neighbors.V, "s": mark, "f": neighbors.gather(f)}, self.normal
         backend.pair_sum(
-            tangential_terms, neighbors.pairs, fields, self._slope, rows=rows, finish=finish, n=n
+            tangential_terms, neighbors.pairs, fields, out, rows=rows, finish=finish, n=n
         )
-        backend.pointwise(component, {"g": self._slope}, out, along=self.tangent)
 
 
 def surface_tension_table(material: Material) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

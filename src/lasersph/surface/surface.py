@@ -18,7 +18,7 @@ import numpy as np
 
 from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
-from lasersph.compute.vectors import dot, same
+from lasersph.compute.vectors import dot, same, vector
 from lasersph.particles.ghosts import MIRROR
 from lasersph.particles.neighbor_lists import NeighborList
 from lasersph.particles.particles import Particles
@@ -57,6 +57,11 @@ def settle(settled, jump, m, remaining):
     if settled == 0.0:
         return 1.0 * jump
     return settled + (1.0 - remaining**m) * (jump - settled)
+
+
+def settle_jump(settled, jump, m, remaining):
+    """Jump of a vector that the divergence sees [m/s], each component as of `settle`."""
+    return vector(*(settle(settled[k], jump[k], m, remaining) for k in range(len(jump))))
 
 
 class PressureCondition(NamedTuple):
@@ -126,6 +131,10 @@ class SurfaceNeighbors(Protocol):
         """A field of all particles on those of the pairs."""
         ...
 
+    def mirror(self, a: Array) -> Array:
+        """A vector field of all particles on those of the pairs, as planes between mirror it."""
+        ...
+
 
 class Surface:
     """A top that stays where it is, and the members of every other one.
@@ -137,15 +146,13 @@ class Surface:
         normal: unit vector, outward. crossing: MIRROR or TANGENT, how ghosts lie beyond it.
         top: highest place of a particle [m]. moves: whether it is no plane. largest_speed: that
             melt below it can have [m/s].
-        pressure_gradient, time_rule: what a step takes from it. jump_direction: along which jumps
-            of velocities point that are numbers; 1 where they are vectors.
+        pressure_gradient, time_rule: what a step takes from it.
         at_surface, near_surface: (n,) 1 for a particle that lies at the surface, within its support
             of it. depth: (n,) below the surface along the beam [m]. temperature: (n,) of the
-            surface above a particle at it [K]. gradient: (n,) of that along the surface [K/m].
-            ghost_velocity_jump: (n,) by how much a ghost beyond the surface is faster than its
-            source along it, 2 d tau / eta [m/s]. velocity_jump, stress_jump: (n,) along a plane, or
-            (d, n), that jump for the flow, and as viscosity sees it. ghosts: what those across its
-            tangents have.
+            surface above a particle at it [K]. gradient: (d, n) of that along the surface [K/m].
+            ghost_velocity_jump: (d, n) by how much a ghost beyond the surface is faster than its
+            source along it, 2 d tau / eta [m/s]. velocity_jump, stress_jump: (d, n) that jump for
+            the flow, and as viscosity sees it. ghosts: what those across its tangents have.
     """
 
     crossing = MIRROR
@@ -164,13 +171,13 @@ class Surface:
     ) -> None:
         self.backend, self.top = backend, top
         self.normal = upward(dimension)
-        self.jump_direction: float | Vector = (1.0,) + (0.0,) * (dimension - 1)
         self.pressure = PressureCondition()
 
         # fields of the particles, set anew in each step
         self.at_surface, self.near_surface = backend.zeros(count), backend.zeros(count)
-        self.depth, self.ghost_velocity_jump = backend.zeros(count), backend.zeros(count)
-        self.temperature, self.gradient = backend.zeros(count), backend.zeros(count)
+        self.depth, self.temperature = backend.zeros(count), backend.zeros(count)
+        self.gradient = backend.zeros((dimension, count))
+        self.ghost_velocity_jump = backend.zeros((dimension, count))
         self.velocity_jump = self.stress_jump = self.ghost_velocity_jump
         # beyond a plane ghosts mirror their sources: nothing is shifted, no pressure is given
         self.ghosts = SurfaceGhosts(
@@ -184,14 +191,14 @@ class Surface:
 
     # jumps of velocity beyond it
     def settle(self, settled: Array, relative_viscosity: Array, remaining: float) -> None:
-        """Let the jump (n,) that the divergence sees follow that of the stress.
+        """Let the jump (d, n) that the divergence sees follow that of the stress.
 
         Args:
             relative_viscosity: (n,) over that at the liquidus. remaining: part of the difference
                 after the step where that is 1.
         """
         fields = {"settled": settled, "jump": self.ghost_velocity_jump, "m": relative_viscosity}
-        self.backend.pointwise(settle, fields, settled, remaining=remaining)
+        self.backend.pointwise(settle_jump, fields, settled, remaining=remaining)
 
     def settled_jump(self, settled: Array) -> Array:
         """`velocity_jump` as the divergence sees it."""

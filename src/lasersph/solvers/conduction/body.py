@@ -19,7 +19,7 @@ from lasersph.linear_solvers.conjugate_gradient import PairOperator
 from lasersph.materials import Material
 from lasersph.materials.caloric_curve import CaloricCurve
 from lasersph.particles import Lattice
-from lasersph.particles.faces import PLANE
+from lasersph.particles.faces import ENDS
 from lasersph.particles.filling import DIRICHLET, FREE, MIRROR, PERIODIC, Filling, fill
 from lasersph.particles.layers import Layers
 from lasersph.particles.neighbor_lists import NeighborList, find_neighbors
@@ -96,7 +96,7 @@ def assemble(
 ) -> Body:
     """Fill the domain, find the pairs, and assemble their weights."""
     # particles with dummies beyond the faces, pairs and weights g_ij
-    ends = {face: KINDS[boundaries.kind_of(face)] for face in PLANE}
+    ends = {face: KINDS[boundaries.kind_of(face)] for face in ENDS}
     filling = fill(layers, sides=KINDS[boundaries.sides], **ends)
     weighing = weighing_of(lattice, layers, use_second_moment=use_second_moment)
     neighbors, pairs = _weights(backend, weighing, filling)

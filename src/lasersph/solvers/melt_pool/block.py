@@ -54,7 +54,7 @@ class Block:
         layers: volumes, supports and factors. ghosts: fields of the particles with their ghosts.
             walls: what faces mean to heat.
         pairs: NeighborList with the rows of the block, among all M.
-        weights: (pairs,) g_ij [1] at the last positions. gradient: (2, pairs) G_ij = V_j grad W_ij
+        weights: (pairs,) g_ij [1] at the last positions. gradient: (d, pairs) G_ij = V_j grad W_ij
             there [1/m]. kernel: (pairs,) V_j W_ij where the pairs were found [1]. viscous_weights:
             (pairs,) g_ij there times the mean of the relative viscosities of both particles [1].
         correction: (d, d, count) matrices C of corrected gradients, see `correct_kernel`.
@@ -114,7 +114,8 @@ class Block:
         self.rows: Rows | None = None
         self.has_row: Array | None = None
         self.rows_near_faces: Rows = nothing
-        self._geometry, self._capacity = PairGeometry(backend, lattice.weighing), Room()
+        self._geometry = PairGeometry(backend, lattice.weighing, dimension)
+        self._capacity = Room()
         self.weights, self.gradient, self.kernel = self._geometry.arrays
         self.viscous_weights = self.weights
         self.correction = backend.zeros((dimension, dimension, count))
@@ -139,10 +140,14 @@ class Block:
         """The field of all particles on the block with ghosts: (n,) to (M,)."""
         return self.ghosts.gather(field)
 
+    def mirror(self, a: Array) -> Array:
+        """A vector field (d, n) on the block with ghosts, (d, M), as planes between mirror it."""
+        return self.ghosts.mirror(a)
+
     def find_pairs(
         self, position: Array, has_row: Array | None, *, has_kernel: bool = False
     ) -> None:
-        """Find ghosts of the particles at `position`, shape (2, n) [m], and pairs of chosen ones.
+        """Find ghosts of the particles at `position`, shape (d, n) [m], and pairs of chosen ones.
 
         Args:
             has_row: (count,) 1 where the pairs of a particle are to be found, else 0; None for all.
@@ -193,7 +198,7 @@ class Block:
 
     @graph
     def extend_to_ghosts(self, position: Array) -> None:
-        """Values of lattice and walls of particles with their ghosts at `position` (2, n) [m], and
+        """Values of lattice and walls of particles with their ghosts at `position` (d, n) [m], and
         their places."""
         self.layers.extend(self.ghosts)
         self.walls.extend()
@@ -251,7 +256,7 @@ class Block:
 
     @graph
     def place_pairs(self, position: Array) -> None:
-        """Places and geometry of the same pairs at other positions (2, n) [m]."""
+        """Places and geometry of the same pairs at other positions (d, n) [m]."""
         self.ghosts.put_in_place(position)
         self._geometry.find(self.pairs, self.layers.fields)
 
@@ -263,7 +268,7 @@ class Block:
         """(count,) 1 for particles within the support of a fluid one, or nearly; see `near_melt`.
 
         Args:
-            position: (2, n) [m]. fluid: (n,) 1 where a particle flows or did so one step ago.
+            position: (d, n) [m]. fluid: (n,) 1 where a particle flows or did so one step ago.
 
         Raises:
             EscapedParticle: a position is not finite or beyond the faces.

@@ -6,8 +6,9 @@ from collections.abc import Callable
 
 import numpy as np
 
-from lasersph.compute.array_types import Array
+from lasersph.compute.array_types import Array, Constants
 from lasersph.compute.backend import Backend
+from lasersph.compute.vectors import dot
 from lasersph.input import format_quantity
 from lasersph.particles.ghosts import MIRROR, TANGENT
 from lasersph.particles.layers import Layers
@@ -46,10 +47,10 @@ def fluid_depth(x, fluid):
     return -fluid * x[-1]
 
 
-def fluid_reach(x, fluid, low, high):
-    """How far a fluid particle is beyond a lower, and beyond an upper end along x [m]."""
+def fluid_reach(x, fluid, along, low, high):
+    """How far a fluid particle is beyond a lower, and beyond an upper end along an axis [m]."""
     if fluid > 0.0:
-        return low - x[0], x[0] - high
+        return low - dot(x, along), dot(x, along) - high
     return low - high, low - high
 
 
@@ -202,35 +203,38 @@ class PoolDomain:
         self.backend.pointwise(resting, fields, has_row)
         return has_row
 
-    def _fluid_ends(self, layers: Layers) -> tuple[float, float]:
-        """Ends along x within which what flows must stay [m], infinite where no columns are coarse.
+    def _fluid_ends(self, layers: Layers) -> tuple[tuple[float, float], ...]:
+        """Ends along x (and y) within which what flows must stay [m], infinite where no columns are
+        coarse.
 
         A row whose pairs reach coarse columns stays as it is, so that it must not see what moves.
         """
         if not layers.beside:
-            return -np.inf, np.inf
-        (low, high), (below, above) = layers.fine_bounds[0], layers.beside[0]
+            return ()
         margin = SKIN * layers.solid_margin(self.lattice.weighing.ratio)
-        return (
-            low + margin if below.size else -np.inf,
-            high - margin if above.size else np.inf,
+        return tuple(
+            (low + margin if below.size else -np.inf, high - margin if above.size else np.inf)
+            for (low, high), (below, above) in zip(layers.fine_bounds, layers.beside, strict=True)
         )
 
     def _refuse_wide(self, position: Array, kinds: ParticleKinds) -> None:
         """Raise PoolTooWide where what flows comes close to coarse columns."""
         if self._free is None:
             return
-        low, high = self._ends
         fields = {"x": position, "fluid": kinds.fluid}
         out, reduce = (None, None), ("max", "max")
-        beyond = self.backend.pointwise(fluid_reach, fields, out, reduce=reduce, low=low, high=high)
-        if max(beyond) <= 0.0:
-            return
-        x = low - beyond[0] if beyond[0] > 0.0 else high + beyond[1]
-        end = self.box[0][0 if beyond[0] > 0.0 else 1]
-        needed = abs(x) + 1.3 * abs(end - (low if beyond[0] > 0.0 else high))
-        raise PoolTooWide(
-            f"the melt at x = {format_quantity(x, 'm')} flows too close to columns coarser than "
-            f"{format_quantity(self.spacing, 'm')}, which begin at {format_quantity(end, 'm')}; "
-            f'give particles.fine_width = "{1e9 * needed:.0f} nm" or more'
-        )
+        for axis, (low, high) in enumerate(self._ends):
+            along = tuple(float(other == axis) for other in range(len(self.box)))
+            place: Constants = {"along": along, "low": low, "high": high}
+            beyond = self.backend.pointwise(fluid_reach, fields, out, reduce=reduce, **place)
+            if max(beyond) <= 0.0:
+                continue
+            x = low - beyond[0] if beyond[0] > 0.0 else high + beyond[1]
+            end = self.box[axis][0 if beyond[0] > 0.0 else 1]
+            needed = abs(x) + 1.3 * abs(end - (low if beyond[0] > 0.0 else high))
+            raise PoolTooWide(
+                f"the melt at {'xy'[axis]} = {format_quantity(x, 'm')} flows too close to columns "
+                f"coarser than {format_quantity(self.spacing, 'm')}, which begin at "
+                f"{format_quantity(end, 'm')}; give "
+                f'particles.fine_width = "{1e9 * needed:.0f} nm" or more'
+            )

@@ -205,9 +205,9 @@ class FaceExchange:
 
     def restore(self, numbers: Mapping[str, float]) -> None:
         """Continue from the numbers of `checkpoint_scalars`."""
-        self.heat = {face: numbers[f"heat.{face}"] for face in PLANE}
-        self.impulse = {face: numbers[f"impulse.{face}"] for face in PLANE}
-        self.pressing = {face: numbers[f"pressing.{face}"] for face in PLANE}
+        self.heat = {face: numbers[f"heat.{face}"] for face in self.heat}
+        self.impulse = {face: numbers[f"impulse.{face}"] for face in self.impulse}
+        self.pressing = {face: numbers[f"pressing.{face}"] for face in self.pressing}
 
 
 def outward(components: tuple[float, ...]) -> tuple[float, ...]:

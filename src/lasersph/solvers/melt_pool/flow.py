@@ -71,7 +71,8 @@ class Flow:
 
         # viscosity: the equation of (68), and the table of nu(T)/nu_l that its pairs are weighed by
         self.viscous = ViscousStep(
-            backend, volume, liquid.viscosity, settings.viscosity, geometry_terms
+            *(backend, volume, liquid.viscosity, settings.viscosity, geometry_terms),
+            dimension=vectors[0],
         )
         T, m = (backend.asarray(values) for values in liquid.relative_viscosity)
         self._viscosity_nodes = {"T_nodes": T, "m_nodes": m}

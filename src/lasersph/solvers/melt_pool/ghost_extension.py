@@ -59,9 +59,8 @@ class GhostExtension:
         }
 
         # F and v_0 of walls, or S alone; beyond a stressed surface the velocity is carried on
-        along: Constants = {"along": surface.jump_direction}
-        self._velocity = along | self._tables(rules.velocity)
-        self._mirrored_velocity = along | self._tables(rules.mirrored_velocity)
+        self._velocity = self._tables(rules.velocity)
+        self._mirrored_velocity = self._tables(rules.mirrored_velocity)
         self._velocity_change = self._tables(rules.velocity_change)
 
         # walls on which no liquid slips: components that they turn around, normal and place
@@ -92,7 +91,7 @@ class GhostExtension:
         self.sources["place"] = self.place
 
     def gather(self, field: Array) -> Array:
-        """The field of all particles on the block with ghosts: (n,) to (M,)."""
+        """The field of all particles on the block with ghosts: (..., n) to (..., M)."""
         return self._read(field, self.source)
 
     def of_type(self, table: Array) -> Array:
@@ -100,8 +99,8 @@ class GhostExtension:
         return self._read(table, self.particles.ghost_type)
 
     def _read(self, table: Array, place: Array) -> Array:
-        """(M,) values of a table at their places."""
-        out = self.backend.zeros(self.size)
+        """(..., M) values of a table at their places."""
+        out = self.backend.zeros((*table.shape[:-1], self.size))
         self.backend.pointwise(element, {"place": place}, out, table=table)
         return out
 
@@ -115,8 +114,8 @@ class GhostExtension:
         """Velocities (d, M) from those of the particles (d, n) [m/s].
 
         Args:
-            jump: by how much the surface makes a ghost faster than its source [m/s]: (n,) along a
-                plane, 2 d tau / eta, (d, n) across a surface that moves.
+            jump: (d, n) by how much the surface makes a ghost faster than its source, 2 d tau / eta
+                [m/s].
         """
         return self._extend(ghost_fields.ghost_velocity, {"v": v, "jump": jump, **self._velocity})
 

@@ -38,15 +38,15 @@ def ghost_tensor(source, ghost_type, M, normal, crosses_surface, sign):
     return outer(S, S) * reflected_tensor(M[source], normal[source], crosses_surface[ghost_type])
 
 
-def ghost_velocity(source, ghost_type, v, jump, along, stressed, factor, added):
+def ghost_velocity(source, ghost_type, v, jump, stressed, factor, added):
     """Velocity [m/s]: that of the source, carried on beyond a stressed surface, then F v + v_0.
 
     Args:
-        jump: what the surface makes a ghost faster than its source [m/s], a number along the
-            tangent `along`, or a vector where that is 1. stressed: 1 where the surface lies
-            between. factor: diagonal of F. added: v_0 of a wall that moves [m/s].
+        jump: what the surface makes a ghost faster than its source [m/s], a vector. stressed: 1
+            where the surface lies between. factor: diagonal of F. added: v_0 of a wall that moves
+            [m/s].
     """
-    carried_on = v[source] + stressed[ghost_type] * jump[source] * along
+    carried_on = v[source] + stressed[ghost_type] * jump[source]
     return factor[ghost_type] * carried_on + added[ghost_type]
 
 

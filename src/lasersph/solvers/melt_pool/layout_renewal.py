@@ -53,7 +53,7 @@ class LayoutRenewal:
         self.volume, self.recedes = 0.0, False
         columns = body.filling.fine_surface
         thickness = domain.layers.thickness
-        self._cell = domain.width / columns * float(thickness[0])
+        self._cell = float(np.prod(domain.layers.column_width()[:, 0])) * float(thickness[0])
         fine = int(np.count_nonzero(thickness <= thickness[0] * (1.0 + 1e-9))) * columns
         self._fine_volume = body.backend.head(body.particles["volume"], fine)
         # of rings their lengths, else 1

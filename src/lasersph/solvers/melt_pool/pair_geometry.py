@@ -66,14 +66,19 @@ class PairGeometry:
     """Arrays per pair, kept while lists have as much room.
 
     Attributes:
-        arrays: of the list, weights (pairs,) g_ij, gradient (2, pairs) G_ij, kernel (pairs,).
+        arrays: of the list, weights (pairs,) g_ij, gradient (d, pairs) G_ij, kernel (pairs,).
     """
 
-    def __init__(self, backend: Backend, weighing: Weighing) -> None:
-        self.backend, self.weighing = backend, weighing
-        self.arrays = (backend.zeros(0), backend.zeros((2, 0)), backend.zeros(0))
+    def __init__(self, backend: Backend, weighing: Weighing, dimension: int) -> None:
+        self.backend, self.weighing, self.dimension = backend, weighing, dimension
+        self.arrays = self._zeros(0)
         self._others: dict[str, Array] = {}
         self._rows: list[tuple[Mean, Rows | None]] = []
+
+    def _zeros(self, count: int) -> tuple[Array, Array, Array]:
+        """Arrays of as many pairs."""
+        zeros = self.backend.zeros
+        return zeros(count), zeros((self.dimension, count)), zeros(count)
 
     def per_pair(self, name: str) -> Array:
         """(pairs,) an array that is kept under a name while lists have as much room."""
@@ -94,7 +99,7 @@ class PairGeometry:
         """
         backend, count = self.backend, pairs.neighbor.shape[0]
         if self.arrays[0].shape[0] != count:
-            self.arrays = (backend.zeros(count), backend.zeros((2, count)), backend.zeros(count))
+            self.arrays = self._zeros(count)
         # one support for all rows, or those with it apart
         self._rows = [(common, None)]
         if pairs.mean is common:

@@ -160,7 +160,8 @@ class ParticleShifting:
     ) -> None:
         self.backend, self.factor, self.spacing = backend, factor, spacing
         self.box, self.periods = box, periods
-        self.displacement, self._v = backend.zeros((2, count)), backend.zeros((2, count))
+        vectors = (len(box), count)
+        self.displacement, self._v = backend.zeros(vectors), backend.zeros(vectors)
         self._up, self._down = backend.zeros(count), backend.zeros(count)
 
     @graph
@@ -204,7 +205,7 @@ class ParticleShifting:
             self.displacement,
             finish=shift,
             rows=kinds.fluid_rows,
-            normal=upward(2),
+            normal=upward(len(self.box)),
             scale=scale,
             limit=MAX_SHIFT * self.spacing,
         )

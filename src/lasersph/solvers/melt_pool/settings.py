@@ -23,16 +23,16 @@ class MeltPoolSettings(HeatSettings):
     indices."""
 
     kind: Literal["melt-pool"] = "melt-pool"
-    dimensions: Literal[2] = Field(default=2, description="of space: x and z")
+    dimensions: Literal[2, 3] = Field(default=2, description="of space: x and z, or x, y and z")
     """Dimensions of space. Source: [Demuth2020] computes in 2-D."""
 
     @field_validator("dimensions", mode="before")
     @classmethod
-    def _say_why_two(cls, value: Any) -> Any:
-        """Refuse columns and blocks with the reason; the type refuses all else."""
-        if value in (1, 3):
+    def _say_why_not_one(cls, value: Any) -> Any:
+        """Refuse columns with the reason; the type refuses all else."""
+        if value == 1:
             raise ValueError(
-                f"must be 2, got {value}: flow is computed in 2-D sections so far; write "
+                "must be 2 or 3, got 1: a column of liquid has nowhere to flow; write "
                 'dimensions = 2, or kind = "conduction" for heat and melting alone'
             )
         return value

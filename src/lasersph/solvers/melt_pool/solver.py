@@ -20,7 +20,7 @@ from lasersph.solvers.conduction.state import HeatState
 from lasersph.solvers.melt_pool.block import Block
 from lasersph.solvers.melt_pool.block_terms import either
 from lasersph.solvers.melt_pool.domain import PoolDomain
-from lasersph.solvers.melt_pool.face_exchange import FaceExchange
+from lasersph.solvers.melt_pool.block_exchange import exchange_of
 from lasersph.solvers.melt_pool.flow import Flow
 from lasersph.solvers.melt_pool.flow_terms import advect, move
 from lasersph.solvers.melt_pool.heat_pairs import HeatPairs
@@ -45,7 +45,7 @@ class MeltPool:
 
     Attributes:
         heat: the solver of enthalpies. flow: velocity and pressure. domain: faces, surface, blocks.
-        position: (2, n) of all particles [m]. kinds: of the particles. fluid_count: how many do.
+        position: (d, n) of all particles [m]. kinds: of the particles. fluid_count: how many do.
         spacing_min: smallest distance of two particles of the block [m].
         exchange: of a box with its faces.
     """
@@ -81,7 +81,9 @@ class MeltPool:
         scheme = heat.scheme
         potential = scheme.P if domain.is_box and isinstance(scheme, ImplicitStep) else None
         is_symmetric = domain.surface.pressure_gradient.is_symmetric
-        self.exchange = FaceExchange(backend, count, potential, books_pressing=is_symmetric)
+        self.exchange = exchange_of(
+            backend, count, potential, domain.conditions, books_pressing=is_symmetric
+        )
         # between pulses: new lattice, time jump; and the test of a steady flow
         self.layout_renewal = LayoutRenewal(heat.body, domain, self.kinds, self.pairs)
         self.pauses: Pauses | None = None

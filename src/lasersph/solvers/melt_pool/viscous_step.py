@@ -1,7 +1,7 @@
 """Viscous forces of a step: explicit as published, or those at the end of the step.
 
 Implicit: (V_i + s sum_j g_ij) v_i - s sum_j g_ij v_j = V_i (v_i + dt b_i), s = nu dt, for the fluid
-particles, both components at once, by conjugate gradients from the present velocity. Ghosts
+particles, all components at once, by conjugate gradients from the present velocity. Ghosts
 count with the velocity that the faces give them, resting particles with zero; the system is
 symmetric and positive, since a ghost changes at most the sign of a component.
 """
@@ -60,30 +60,36 @@ class ViscousStep:
     Args:
         volume: (n,) V [m^2], of rings [m^3]. viscosity: nu at the liquidus [m^2/s]; at other
             temperatures the weights of the pairs differ. kind: "implicit" or "explicit". terms: of
-            the geometry.
+            the geometry. dimension: d.
 
     Attributes:
-        velocity: (2, n) from which the forces of the last step follow [m/s].
+        velocity: (d, n) from which the forces of the last step follow [m/s].
     """
 
     def __init__(
-        self, backend: Backend, volume: Array, viscosity: float, kind: str, terms: FlowTerms
+        self,
+        backend: Backend,
+        volume: Array,
+        viscosity: float,
+        kind: str,
+        terms: FlowTerms,
+        dimension: int = 2,
     ) -> None:
         count, self.volume, self.terms = volume.shape[0], volume, terms
         self.backend, self.nu, self.is_implicit = backend, viscosity, kind == "implicit"
         vectors = 5 if self.is_implicit else 1
-        self._star, *self._work = (backend.zeros((2, count)) for _ in range(vectors))
+        self._star, *self._work = (backend.zeros((dimension, count)) for _ in range(vectors))
         self._g_sum = backend.zeros((*terms.diagonal_shape, count))
-        self.velocity = backend.zeros((2, count))
-        self._changes = backend.zeros((2, 0))
+        self.velocity = backend.zeros((dimension, count))
+        self._changes = backend.zeros((dimension, 0))
 
     def advance(
         self, block: Block, v: Array, b: Array, extended: Array, kinds: ParticleKinds, step: float
     ) -> int:
-        """Advance v (2, n) [m/s] under viscosity and the body force b [m/s^2]; iterations.
+        """Advance v (d, n) [m/s] under viscosity and the body force b [m/s^2]; iterations.
 
         Args:
-            extended: (2, M) v with that of the ghosts [m/s].
+            extended: (d, M) v with that of the ghosts [m/s].
         """
         backend = self.backend
         rows = kinds.fluid_rows
@@ -123,7 +129,7 @@ class ViscousStep:
         backend, terms, fields = self.backend, self.terms, self._fields(block)
         r, z, d, _ = self._work
         backend.fill(d, 0.0)  # which ghosts read beyond the rows
-        self._changes = backend.zeros((2, block.ghosts.size))
+        self._changes = backend.zeros((extended.shape[0], block.ghosts.size))
 
         # sum_j g_ij and v* = v + dt b
         backend.pair_sum(terms.diagonal, block.pairs, fields, self._g_sum, rows=rows)

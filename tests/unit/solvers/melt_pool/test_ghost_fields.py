@@ -67,28 +67,28 @@ def test_faces_edges_and_corners_in_space(sign, off_diagonal):
 
 
 @pytest.mark.parametrize(
-    ("v", "factor", "added", "along", "expected"),
+    ("v", "factor", "added", "expected"),
     [
         # beyond a wall that moves along x at 4, and one that moves along y in space
-        ((1, 3), (-1, -1), (8, 0), (1, 0), (7, -3)),
-        ((1, 3, 5), (-1, -1, -1), (0, 8, 0), (1, 0, 0), (-1, 5, -5)),
+        ((1, 3), (-1, -1), (8, 0), (7, -3)),
+        ((1, 3, 5), (-1, -1, -1), (0, 8, 0), (-1, 5, -5)),
         # in an edge with a plane of symmetry at x = 0 as well
-        ((1, 3, 5), (1, -1, -1), (0, 8, 0), (1, 0, 0), (1, 5, -5)),
+        ((1, 3, 5), (1, -1, -1), (0, 8, 0), (1, 5, -5)),
     ],
 )
-def test_velocity_beyond_a_wall_that_moves(v, factor, added, along, expected):
+def test_velocity_beyond_a_wall_that_moves(v, factor, added, expected):
     """2 v_wall - v along the wall, so that the mean with the source is the wall's."""
-    walls = {"stressed": [0.0, 0.0], "along": np.array(along)}
+    walls, jump = {"stressed": [0.0, 0.0]}, entries(np.full(len(v), 0.25))
     walls |= {"factor": entries(factor), "added": entries(added)}
-    assert ghost_velocity(1, 1, entries(v), [0.0, 0.25], **walls).tolist() == list(expected)
+    assert ghost_velocity(1, 1, entries(v), jump, **walls).tolist() == list(expected)
     change = velocity_change(1, 1, entries(v), entries(factor))
     assert change.tolist() == [s * one for s, one in zip(factor, v, strict=True)]
 
 
 def test_velocity_beyond_a_stressed_surface():
     """The tangential velocity goes on, 2 + 0.25; beyond a side as well, all of it turned around."""
-    rules = {"stressed": [0.0, 1.0], "added": entries((0, 0)), "along": np.array([1.0, 0.0])}
-    v, jump = entries((2, 3)), [0.0, 0.25]
+    rules = {"stressed": [0.0, 1.0], "added": entries((0, 0))}
+    v, jump = entries((2, 3)), entries((0.25, 0.0))
     assert ghost_velocity(1, 1, v, jump, factor=entries((1, -1)), **rules).tolist() == [2.25, -3]
     assert ghost_velocity(1, 1, v, jump, factor=entries((-1, -1)), **rules).tolist() == [-2.25, -3]
 
@@ -135,7 +135,7 @@ def test_linear_fields_go_on_across_a_tangent(dimension):
     """v = v_0 + G x with the jump G d_s, and p = a . x with its value below the source."""
     rng, _, x, shift = slanted(dimension)
     v_0, G, a = (rng.normal(size=(dimension,) * k) for k in (1, 2, 1))
-    rules = {"stressed": [0.0, 1.0], "along": 1.0, "factor": entries(np.ones(dimension))}
+    rules = {"stressed": [0.0, 1.0], "factor": entries(np.ones(dimension))}
     rules["added"] = entries(np.zeros(dimension))
     found = ghost_velocity(1, 1, entries(v_0 + G @ x), entries(G @ shift), **rules)
     assert found == pytest.approx(v_0 + G @ (x + shift), rel=1e-13)

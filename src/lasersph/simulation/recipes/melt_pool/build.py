@@ -99,6 +99,7 @@ def with_flow(case: Case, settings: MeltPoolSettings, layers: Layers, heat: Cond
         surface = FlatSurface(
             backend,
             count,
+            dimension=layers.dimension,
             plane=0.0,
             spacing=layers.spacing,
             support=support,
@@ -109,7 +110,7 @@ def with_flow(case: Case, settings: MeltPoolSettings, layers: Layers, heat: Cond
             pressure_gradient=DifferenceGradient() if is_section else SymmetricGradient(),
         )
     else:
-        surface = Surface(backend, count, 0.0)
+        surface = Surface(backend, count, 0.0, layers.dimension)
 
     # Volumes belong into checkpoints where particles are laid out anew or lose mass.
     volume = FIELDS["volume"]

@@ -225,7 +225,7 @@ def _imposed_gradient(case: Case) -> float:
     drive = case.boundaries.temperature_drive
     if drive is not None:
         return drive.shape.steepest
-    (x,) = case.domain.lateral(case.geometry)
+    x, *_ = case.domain.lateral(case.geometry)
     return _temperature_range(case) / (x[1] - x[0])
 
 

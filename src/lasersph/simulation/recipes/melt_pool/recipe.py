@@ -61,7 +61,7 @@ class MeltPoolRecipe(HeatRecipe[MeltPoolSettings, MeltPool]):
         if flow.surface.size:
             fields["surface"] = flow.surface
         elif flow.box:
-            top = fields["position"][1] > -solver.domain.spacing
+            top = fields["position"][-1] > -solver.domain.spacing
             fields["surface"] = np.flatnonzero(top)
         # A box is all fluid; a moving line adds its heights and the volumes it changes.
         if flow.box:

@@ -16,9 +16,6 @@ from lasersph.observers.flow_view import FlowView
 from lasersph.physics.recoil import recoil_at
 from lasersph.solvers.melt_pool.solver import MeltPool
 
-SIDES = ("left", "right", "bottom", "surface")
-
-
 def flow_view(case: Case, solver: MeltPool, fetch: Callable[[Array], np.ndarray]) -> FlowView:
     """The flow for observers; `fetch` gets an array of the solver."""
     flow = solver.flow
@@ -34,7 +31,7 @@ def flow_view(case: Case, solver: MeltPool, fetch: Callable[[Array], np.ndarray]
     surface = found[np.argsort(position[0, found], kind="stable")]
     if surface.size:
         temperature = backend.host_view(solver.particles["temperature"])[surface]
-        gradient = np.gradient(temperature, position[0, surface])
+        gradient = _along_x(temperature, position[:, surface])
         # Where the surface is computed, temperature and gradient of the surface itself.
         if solver.fluid_count > 0.0 and flow.has_block:
             of_surface = backend.host_view(free.temperature)[surface]
@@ -43,15 +40,17 @@ def flow_view(case: Case, solver: MeltPool, fetch: Callable[[Array], np.ndarray]
                 known = backend.host_view(solver.kinds.fluid)[surface] > 0.0
                 of_surface = np.where(known, of_surface, temperature)
             temperature = of_surface
-            gradient = np.gradient(temperature, position[0, surface])
-            gradient = np.where(known, backend.host_view(free.gradient)[surface], gradient)
+            gradient = _along_x(temperature, position[:, surface])
+            gradient = np.where(known, _size(backend.host_view(free.gradient), surface), gradient)
         # Velocity of the surface: that of the particle and half the jump to its ghost.
         flows = backend.host_view(solver.kinds.fluid)[surface]
-        jump = backend.host_view(free.ghost_velocity_jump)[surface]
-        speed = velocity[0, surface] + flows * (0.5 * jump)
-    T = material.flow_temperature
+        level = velocity.shape[0] - 1
+        jump = np.atleast_2d(backend.host_view(free.ghost_velocity_jump))[:level, surface]
+        speed = velocity[:level, surface] + flows * (0.5 * jump)
+        speed = speed[0] if level == 1 else speed
+    T, sides = material.flow_temperature, case.geometry.faces
     has_slope = material.surface_tension_slope is not None or material.surface_tension is not None
-    is_box, kinds = case.flow is not None, {side: case.boundaries.kind_of(side) for side in SIDES}
+    is_box, kinds = case.flow is not None, {side: case.boundaries.kind_of(side) for side in sides}
 
     # Sides of a box with a given temperature, which walls of a block do not show.
     wall_temperature = {
@@ -86,6 +85,20 @@ def flow_view(case: Case, solver: MeltPool, fetch: Callable[[Array], np.ndarray]
         wall_pressing={} if free.moves else dict(solver.exchange.pressing),
         full_step=solver.state.unclipped_step,
     )
+
+
+def _along_x(temperature: np.ndarray, position: np.ndarray) -> np.ndarray:
+    """Derivative along a surface of values (s,) at places (d, s) in order of x [K/m]; 0 in 3-D,
+    where they lie in no line."""
+    if position.shape[0] == 3:
+        return np.zeros_like(temperature)
+    return np.gradient(temperature, position[0])
+
+
+def _size(gradient: np.ndarray, surface: np.ndarray) -> np.ndarray:
+    """(s,) dT/dx of some particles in a plane, the size of their gradient in 3-D [K/m]."""
+    found = np.atleast_2d(gradient)[:, surface]
+    return found[0] if found.shape[0] < 3 else np.sqrt(np.sum(found * found, axis=0))
 
 
 def _recoil(case: Case, temperature: np.ndarray) -> np.ndarray | None:
