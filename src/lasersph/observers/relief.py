@@ -108,6 +108,7 @@ def value_at_zero(x: np.ndarray, values: np.ndarray) -> np.ndarray:
         found = found + values[k] * np.prod(others / (others - x[k]))
     return found
 
+
 def refuse_parts(width: float, period: float) -> None:
     """Refuse a width that holds no whole half periods [m]. Raises ValueError."""
     halves = width / (0.5 * period)

@@ -77,7 +77,9 @@ def test_volumes():
 def test_wave_of_whole_periods_is_no_slope():
     """A sine over x has Sq = a/sqrt 2 as periods; the least-squares plane would take a part."""
     x = (np.arange(60) + 0.5) * LX / 60
-    relief = AreaRelief(x, x, np.repeat(A * np.sin(2 * pi * x / LX)[:, None], 60, 1), 2 * ("periodic",))
+    relief = AreaRelief(
+        x, x, np.repeat(A * np.sin(2 * pi * x / LX)[:, None], 60, 1), 2 * ("periodic",)
+    )
     assert relief.parameters().Sq == pytest.approx(A / np.sqrt(2.0), rel=1e-12, abs=0.0)
     assert areal_parameters(relief.height.T, 1e-8, 1e-8).Sq < 0.8 * relief.parameters().Sq
     tilted = replace(relief, beyond=("pinned", "pinned"))
