@@ -37,15 +37,16 @@ def particle_index(folder: str | Path) -> dict[str, Any]:
 
     Returns:
         `case`: title. `stamp`: end of all block names. `is_complete`: whether more frames come.
-        `dimensions`. `mirrored`, `mirrored_y`: whether x < 0 and y < 0 mirror what was computed. `levels`:
-        temperatures by name at which the metal melts and boils [K]. `pulses`: when the clocks of
-        the pulses of a train begin [s]. `times` [s] and `counts` of particles, one a frame.
-        `start`: frame to begin with, in the middle of the hottest. `bounds`: [smallest, largest]
-        x, y, z of the first frame [m]. `fields`: `name`, `label`, `unit`, `range` over all frames.
-        `blocks`: offset of each frame by name of the field, with `position` and `width`,
+        `dimensions`. `mirrored`, `mirrored_y`: whether x < 0 and y < 0 mirror what was computed.
+        `revolved`: whether the surface is a line that is turned about the axis of a section.
+        `levels`: temperatures by name at which the metal melts and boils [K]. `pulses`: when the
+        clocks of the pulses of a train begin [s]. `times` [s] and `counts` of particles, one a
+        frame. `start`: frame to begin with, in the middle of the hottest. `bounds`: [smallest,
+        largest] x, y, z of the first frame [m]. `fields`: `name`, `label`, `unit`, `range` over all
+        frames. `blocks`: offset of each frame by name of the field, with `position` and `width`,
         (count, 3) each. `surface`: `counts` and `blocks` of a surface that moves, with its fields,
-        and `shape`, its numbers of points along x and y, null of a line; else null. `revolved`:
-        whether that line is turned about the axis. Before the first snapshot, times and fields are empty.
+        and `shape`, its numbers of points along x and y, null of a line; else null. Before the
+        first snapshot, times and fields are empty.
 
     Raises:
         OutputError: there is no run, or its files are damaged.

@@ -149,7 +149,7 @@ export class Scene {
     this.center = [x, y, z].map(([low, high]) => 0.5 * (low + high));
     [this.yaw, this.pitch] = space ? [0.55, 0.5] : [0, 0];
     const { clientWidth: wide, clientHeight: high } = this.canvas;
-    const across = space ? 1.25 * Math.max(x[1] - x[0], y[1] - y[0]) : x[1] - x[0];
+    const across = space ? 1.4 * Math.max(x[1] - x[0], y[1] - y[0]) : x[1] - x[0];
     const up = space ? 0.88 * (z[1] - z[0]) + 0.66 * (y[1] - y[0]) : z[1] - z[0];
     const bar = wide > NARROW ? 160 : 112;  // pixels of the color bar, at the right
     this.metersPerPixel = Math.max(across / (wide - bar - 2 * EDGE), up / (high - 70), 1e-15);

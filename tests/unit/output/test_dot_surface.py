@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 import synthetic_dot
@@ -12,6 +14,7 @@ from lasersph.observers.surface_fields import at_columns, surface_fields
 from lasersph.output import open_run
 from lasersph.output.export import export
 from lasersph.output.surface_files.read import read_surface
+from lasersph.web.run_page import relief
 
 K = 2.0 * np.pi / PERIOD
 
@@ -33,6 +36,14 @@ def test_relief_is_that_of_the_whole(dot):
     x, y, z = np.loadtxt(dot.path / "surface.csv", delimiter=",", skiprows=1).T
     assert z == pytest.approx(-DEPTH * np.cos(K * x) * np.cos(K * y), rel=1e-6, abs=1e-16)
     assert x.size == 1600
+
+
+def test_page_of_a_run_shows_a_section(dot):
+    """The web page draws the line along x at y = 0."""
+    found = relief(SimpleNamespace(path=dot.path))
+    x, z = np.array(found["x"]), np.array(found["height"])
+    assert x.size == 40 and np.all(np.diff(x) > 0.0)
+    assert z == pytest.approx(-DEPTH * np.cos(K * x), rel=0.01, abs=1e-10)
 
 
 def test_fields_of_the_surface(dot):
