@@ -1,6 +1,8 @@
 """Areal parameters of a height map [ISO25178]: Sa, Sq, Sz, Ssk, Sdr.
 
-Heights z count from the least-squares plane through the map, over which means are taken:
+Heights z count from the least-squares plane through the map, over which means are taken; those of
+whole periods from their mean, as a plane through a wave that ends where it begins is level but for
+where it was cut:
 
     Sa = mean |z|,  Sq = sqrt(mean z^2),  Sz = max z - min z,  Ssk = mean z^3 / Sq^3
     Sdr = mean over cells of (area of the surface / area of the cell) - 1
@@ -29,15 +31,22 @@ class ArealParameters(NamedTuple):
     Sdr: float
 
 
-def areal_parameters(z: np.ndarray, dx: float, dy: float) -> ArealParameters:
+def areal_parameters(
+    z: np.ndarray, dx: float, dy: float, *, repeats: bool = False
+) -> ArealParameters:
     """Areal parameters of heights z (ny, nx) [m] at steps dx, dy [m].
+
+    Args:
+        repeats: whether the map is whole periods along x and y; then its cells count that lie
+            between its last and its first heights, too.
 
     Raises:
         ValueError: fewer than three heights along x or y, or fewer than three in all.
     """
     if min(z.shape) < 3 or np.count_nonzero(np.isfinite(z)) < 3:
         raise ValueError("areal parameters need three heights or more along x and y")
-    level = z - least_squares_plane(z)
+    level = z - (np.nanmean(z) if repeats else least_squares_plane(z))
+    developed = np.pad(level, (0, 1), mode="wrap") if repeats else level
     known = level[np.isfinite(level)]
     Sq = float(np.sqrt(np.mean(known**2)))
     # heights of rounding, some 1e-15 of the largest, have no skewness
@@ -47,7 +56,7 @@ def areal_parameters(z: np.ndarray, dx: float, dy: float) -> ArealParameters:
         Sq=Sq,
         Sz=float(np.ptp(known)),
         Ssk=0.0 if is_plane else float(np.mean(known**3)) / Sq**3,
-        Sdr=developed_area_ratio(level, dx, dy),
+        Sdr=developed_area_ratio(developed, dx, dy),
     )
 
 

@@ -16,6 +16,7 @@ from lasersph.observers.flow_speed import FlowSpeed
 from lasersph.observers.matter_motion import MatterMotion
 from lasersph.observers.melt_pool import MeltPool
 from lasersph.observers.observer import Observer, Row
+from lasersph.observers.pool_count import PoolCount
 from lasersph.observers.probes import Probes
 from lasersph.observers.pulses import Pulses
 from lasersph.observers.steps import Steps
@@ -34,6 +35,7 @@ OBSERVERS: tuple[type[Observer], ...] = (
     Pulses,
     SurfaceTemperature,
     MeltPool,
+    PoolCount,
     Vaporization,
     Crater,
     Ejecta,
@@ -129,6 +131,7 @@ def heat_observers(
     dimension: int,
     *,
     amount_dimension: int | None = None,
+    periodic: tuple[bool, bool] | None = None,
     pulses: Pulses | None = None,
     probes: Sequence[Probe] = (),
     iterations: Sequence[str] = (),
@@ -137,7 +140,8 @@ def heat_observers(
 
     Args:
         dimension: 1, 2 or 3. amount_dimension: dimensions that energies cover, 3 of a section
-            (r, z); the same where it is not given.
+            (r, z); the same where it is not given. periodic: whether x and y repeat in 3-D, where
+            pools are counted; None counts none.
         pulses: of a train; None of a single one or without light.
         probes: points whose temperature is recorded.
         iterations: names of the solver parts that count iterations.
@@ -147,6 +151,7 @@ def heat_observers(
             Steps(tuple(iterations)),
             SurfaceTemperature(),
             MeltPool(dimension, is_section=(amount_dimension or dimension) > dimension),
+            *((PoolCount(periodic),) if dimension == 3 and periodic is not None else ()),
             Vaporization(),
             EnergyBudget(amount_dimension or dimension),
             Probes(tuple(probes)),
@@ -159,6 +164,7 @@ def flow_observers(
     dimension: int,
     *,
     amount_dimension: int | None = None,
+    periodic: tuple[bool, bool] | None = None,
     box: bool = False,
     topography: Topography | None = None,
     pulses: Pulses | None = None,
@@ -168,7 +174,7 @@ def flow_observers(
     """Observers of every run with flow: those of heat, and of the flow.
 
     Args:
-        dimension, amount_dimension, pulses, probes, iterations: as of `heat_observers`.
+        dimension, amount_dimension, periodic, pulses, probes, iterations: as of `heat_observers`.
         box: a closed box that is all liquid has no melt pool, but center lines and heat through
             its walls.
         topography: of a surface that moves; None where it is flat.
@@ -177,6 +183,7 @@ def flow_observers(
     observed = heat_observers(
         dimension,
         amount_dimension=covered,
+        periodic=periodic,
         pulses=pulses,
         probes=probes,
         iterations=iterations,
@@ -188,7 +195,7 @@ def flow_observers(
 
     # a closed box has no pool and no vapor, but walls and eddies
     if box:
-        here = (one for one in heat if not isinstance(one, MeltPool | Vaporization))
+        here = (one for one in heat if not isinstance(one, MeltPool | PoolCount | Vaporization))
         return Observers([*here, *flow, BoxFlow(dimension), WallExchange(dimension)])
     cells = (FlowCells(),) if covered > dimension and topography is None else ()
     # extrema of a line along x, which a surface in 3-D is not

@@ -13,6 +13,7 @@ from typing import NoReturn
 import numpy as np
 
 from lasersph.observers.ablation_view import AblationView
+from lasersph.observers.area_relief import AreaRelief
 from lasersph.observers.flow_view import FlowView
 from lasersph.observers.relief import Relief
 
@@ -48,7 +49,8 @@ class View:
         evaporated: (columns,) thickness that has evaporated from each column of cells [m], where
             the run follows it. column_share: (columns,) shares of the surface that these have,
             their sum is 1; in a section (r, z) those of rings.
-        relief: heights of the surface; None where it stays flat.
+        relief: heights of the surface by columns, over x or, in 3-D, over x and y; None where it
+            stays flat.
         flow: velocity, pressure and what belongs to them; None in a run without flow.
         ablation: crater and ejecta; None in a run without ablation.
     """
@@ -82,7 +84,7 @@ class View:
     # parts that only some runs have
     evaporated: np.ndarray | None = None
     column_share: np.ndarray | None = None
-    relief: Relief | None = None
+    relief: Relief | AreaRelief | None = None
     flow: FlowView | None = None
     ablation: AblationView | None = None
 

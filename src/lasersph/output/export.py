@@ -26,7 +26,8 @@ def export(
     at: float | str | None = None,
     revolve: bool = False,
 ) -> Path:
-    """Write the surface of a crater or a relief: crater.csv, surface-profile.csv or height.csv.
+    """Write the surface of a crater or a relief: crater.csv, surface-profile.csv, surface-map.csv
+    (in 3-D), or height.csv.
 
         lasersph.export("runs/texture-steel", "stl", at="60 ns")
 
@@ -59,9 +60,11 @@ def export(
     # A profile has no area: it is drawn out for formats of triangles.
     moves = len(run.surface) > 0
     relief = run.relief(time)
-    if moves and format in ("stl", "ply"):
+    is_profile = moves and relief.y.size == 1
+    if is_profile and format in ("stl", "ply"):
         relief = relief.extruded()
-    return relief.write(run.path / f"{'surface-profile' if moves else 'crater'}.{format}")
+    name = "surface-profile" if is_profile else "surface-map" if moves else "crater"
+    return relief.write(run.path / f"{name}.{format}")
 
 
 def _export_body(run: Run, time: float | None) -> Path:

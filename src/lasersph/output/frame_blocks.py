@@ -23,7 +23,7 @@ from lasersph.output.errors import read_json
 from lasersph.output.generation import read_unchanged
 from lasersph.output.particle_file import open_for_reading, value_range
 from lasersph.output.pulse_starts import starts_of_pulses
-from lasersph.output.symmetry import is_mirrored
+from lasersph.output.symmetry import is_axisymmetric, is_mirrored, mirrored_axes
 
 NAME = re.compile(r"(particles|surface)\.([a-z_]+)\.([0-9]{1,15})\.([0-9]{1,12})\.([0-9a-z-]+)")
 GEOMETRY = ("width",)
@@ -37,14 +37,16 @@ def particle_index(folder: str | Path) -> dict[str, Any]:
 
     Returns:
         `case`: title. `stamp`: end of all block names. `is_complete`: whether more frames come.
-        `dimensions`. `mirrored`: whether x < 0 is the mirror image of what was computed. `levels`:
-        temperatures by name at which the metal melts and boils [K]. `pulses`: when the clocks of
-        the pulses of a train begin [s]. `times` [s] and `counts` of particles, one a frame.
-        `start`: frame to begin with, in the middle of the hottest. `bounds`: [smallest, largest]
-        x, y, z of the first frame [m]. `fields`: `name`, `label`, `unit`, `range` over all frames.
-        `blocks`: offset of each frame by name of the field, with `position` and `width`,
-        (count, 3) each. `surface`: `counts` and `blocks` of the line of a surface that moves, else
-        null. Before the first snapshot, times and fields are empty.
+        `dimensions`. `mirrored`, `mirrored_y`: whether x < 0 and y < 0 mirror what was computed.
+        `revolved`: whether the surface is a line that is turned about the axis of a section.
+        `levels`: temperatures by name at which the metal melts and boils [K]. `pulses`: when the
+        clocks of the pulses of a train begin [s]. `times` [s] and `counts` of particles, one a
+        frame. `start`: frame to begin with, in the middle of the hottest. `bounds`: [smallest,
+        largest] x, y, z of the first frame [m]. `fields`: `name`, `label`, `unit`, `range` over all
+        frames. `blocks`: offset of each frame by name of the field, with `position` and `width`,
+        (count, 3) each. `surface`: `counts` and `blocks` of a surface that moves, with its fields,
+        and `shape`, its numbers of points along x and y, null of a line; else null. Before the
+        first snapshot, times and fields are empty.
 
     Raises:
         OutputError: there is no run, or its files are damaged.
@@ -56,6 +58,8 @@ def particle_index(folder: str | Path) -> dict[str, Any]:
         "stamp": stamp,
         "is_complete": (path / "summary.json").exists(),
         "mirrored": is_mirrored(case),
+        "mirrored_y": mirrored_axes(case)[1],
+        "revolved": is_axisymmetric(case),
         "levels": levels_of(case.get("material") or {}),
         "pulses": starts_of_pulses(case),
     }
@@ -65,8 +69,13 @@ def particle_index(folder: str | Path) -> dict[str, Any]:
         return {**index, **particles, "surface": None}
     # while a run writes a frame, its line is not there yet: it waits for it
     particles = first_frames(particles, len(surface["times"]))
-    line = {key: surface[key] for key in ("counts", "blocks")}
-    return {**index, **particles, "surface": line}
+    found = {key: surface[key] for key in ("counts", "blocks", "shape")}
+    # what the surface alone has colors it where it is a body
+    known = {one["name"] for one in particles["fields"]}
+    is_body = found["shape"] is not None or index["revolved"]
+    own = [one for one in surface["fields"] if is_body and one["name"] not in known]
+    particles["fields"] = [*particles["fields"], *own]
+    return {**index, **particles, "surface": found}
 
 
 def first_frames(frames: dict[str, Any], count: int) -> dict[str, Any]:
@@ -129,12 +138,14 @@ def levels_of(material: Mapping[str, Any]) -> dict[str, float]:
 def frames_of(path: Path) -> dict[str, Any]:
     """Frames, fields and blocks of one file; without frames where there is no file yet."""
     frames: dict[str, Any] = {"dimensions": 0, "times": [], "counts": [], "start": 0}
-    frames |= {"bounds": [[0.0, 0.0]] * 3, "fields": [], "blocks": {}}
+    frames |= {"bounds": [[0.0, 0.0]] * 3, "fields": [], "blocks": {}, "shape": None}
     if not path.exists():
         return frames
     with open_for_reading(path) as file:
         root = file["VTKHDF"]
         frames["dimensions"] = int(file.attrs["dimension"])
+        if "shape" in file.attrs:
+            frames["shape"] = file.attrs["shape"][:].tolist()
         frames["times"] = root["Steps/Values"][:].tolist()
         frames["counts"], frames["blocks"] = counts_of(file), offsets_of(file)
         if not frames["times"]:

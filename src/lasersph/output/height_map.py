@@ -24,6 +24,7 @@ from lasersph.output.atomic import replace_file, replace_text
 from lasersph.output.errors import OutputError
 from lasersph.output.surface_files.sdf import sdf_text
 from lasersph.output.surface_files.x3p import x3p_bytes
+from lasersph.output.triangles import grid_triangles
 
 CONDENSED = 0
 """Stage of a particle of the body, see `observers.AblationView`."""
@@ -105,12 +106,7 @@ class HeightMap:
 
     def triangles(self) -> np.ndarray:
         """Numbers of the vertices of each triangle, (t, 3), counterclockwise from above."""
-        ny, nx = self.z.shape
-        number = np.arange(ny * nx).reshape(ny, nx)
-        a, b = number[:-1, :-1].ravel(), number[:-1, 1:].ravel()
-        # a, b, c, d go around each square of four columns; its diagonal runs from a to c.
-        c, d = number[1:, 1:].ravel(), number[1:, :-1].ravel()
-        return np.concatenate([np.column_stack([a, b, c]), np.column_stack([a, c, d])])
+        return grid_triangles(np.arange(self.z.size).reshape(self.z.shape))
 
     def as_stl(self) -> bytes:
         """Binary STL: header, number of triangles, normal and corners of each, single precision."""
@@ -183,6 +179,43 @@ def profile_map(step: Mapping[str, Any], *, is_half: bool) -> HeightMap:
     if is_half:
         x, z = np.concatenate([-x[::-1], x]), np.concatenate([z[::-1], z])
     return HeightMap(x, np.zeros(1), z[None, :].copy(), time=float(step["time"]))
+
+
+def surface_map(
+    step: Mapping[str, Any], shape: tuple[int, int], mirrored: tuple[bool, bool], name: str = ""
+) -> HeightMap:
+    """The surface of a run in 3-D as a height map of the whole.
+
+    Args:
+        step: of `Run.surface`. shape: numbers of columns along x and y. mirrored: whether the
+            mirror images about x = 0 and y = 0 belong to it. name: of a field that takes the
+            place of the heights.
+    """
+    x, y, z = (values.reshape(shape) for values in step["position"])
+    z = np.asarray(step[name], float).reshape(shape) if name else z
+    x, y, z = whole_map(x[:, 0], y[0], z, mirrored)
+    return HeightMap(x, y, z.T.copy(), time=float(step["time"]))
+
+
+def whole_map(
+    x: np.ndarray,
+    y: np.ndarray,
+    z: np.ndarray,
+    mirrored: tuple[bool, bool],
+    odd: tuple[bool, bool] = (False, False),
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Places (nx,), (ny,) and values (nx, ny) with their mirror images about x = 0 and y = 0.
+
+    Args:
+        mirrored: along x and y. odd: whether values change their sign across x = 0, and y = 0.
+    """
+    # The mirror image comes first, so that places grow.
+    if mirrored[0]:
+        x, z = np.concatenate([-x[::-1], x]), np.concatenate([(-1) ** odd[0] * z[::-1], z])
+    if mirrored[1]:
+        z = np.concatenate([(-1) ** odd[1] * z[:, ::-1], z], axis=1)
+        y = np.concatenate([-y[::-1], y])
+    return x, y, z
 
 
 def bins(values: np.ndarray, width: float) -> tuple[np.ndarray, np.ndarray]:

@@ -1,13 +1,13 @@
 """Snapshots of all particles in one transient VTKHDF file, which ParaView opens as it is.
 
-The layout is VTKHDF 2.0, type PolyData, with one vertex cell per particle, or one line through all
-points for a surface [VTKHDF]: arrays of
-all steps lie end to end, and the group `Steps` says where each step begins. An array that did
-not change since the step before (positions of a solid, cell widths) is not written again: its
-offset points to the old block. Blocks are compressed (gzip 1, shuffle), one chunk a block, so
-that adding a step rewrites nothing. The file is opened, appended and closed at each step through
-a `Transaction`: a kill at any moment leaves a readable file. Beside the group `VTKHDF`, which is
-all that ParaView reads, `ranges` keeps the smallest and largest values of each step for viewers.
+The layout is VTKHDF 2.0, type PolyData, with one vertex cell per particle, or for a surface one
+line through all points, or triangles between those of a grid [VTKHDF]: arrays of all steps lie end
+to end, and the group `Steps` says where each step begins. An array that did not change since the
+step before (positions of a solid, cell widths) is not written again: its offset points to the old
+block. Blocks are compressed (gzip 1, shuffle), one chunk a block, so that adding a step rewrites
+nothing. The file is opened, appended and closed at each step through a `Transaction`: a kill at any
+moment leaves a readable file. Beside the group `VTKHDF`, which is all that ParaView reads, `ranges`
+keeps the smallest and largest values of each step for viewers.
 
 Coordinates are three-dimensional, as VTK wants: (0, 0, z) in 1-D, (x, 0, z) in 2-D.
 
@@ -27,9 +27,11 @@ import numpy as np
 
 from lasersph.output.errors import OutputError
 from lasersph.output.transaction import Transaction, discard, finish_commit
+from lasersph.output.triangles import grid_triangles
 
 AXES = {1: (2,), 2: (0, 2), 3: (0, 1, 2)}
-CELL_KINDS = ("Vertices", "Lines", "Polygons", "Strips")
+CellKind = Literal["Vertices", "Lines", "Polygons", "Strips"]
+CELL_KINDS: tuple[CellKind, ...] = ("Vertices", "Lines", "Polygons", "Strips")
 LARGEST_CHUNK = 1 << 20
 FILTERS: dict[str, Any] = {"compression": "gzip", "compression_opts": 1, "shuffle": True}
 
@@ -37,11 +39,12 @@ FILTERS: dict[str, Any] = {"compression": "gzip", "compression_opts": 1, "shuffl
 class ParticleFile:
     """Appends steps to a VTKHDF file and cuts it back; nothing stays open in between."""
 
-    def __init__(self, path: Path, cells: Literal["Vertices", "Lines"] = "Vertices") -> None:
+    def __init__(self, path: Path, cells: CellKind = "Vertices") -> None:
         """Continue the file at `path`, or start it with the first step.
 
         Args:
-            cells: a vertex for each point, or one line through all of them in their order.
+            cells: a vertex for each point, or one line through all of them in their order; points
+                of a grid are always triangles.
         """
         self.path, self.cells = path, cells
 
@@ -60,6 +63,7 @@ class ParticleFile:
         fields: Mapping[str, np.ndarray],
         *,
         units: Mapping[str, str] | None = None,
+        shape: tuple[int, int] | None = None,
     ) -> None:
         """Add one step.
 
@@ -68,6 +72,8 @@ class ParticleFile:
             fields: arrays (n,) or (dim, n) by name, stored in their own type; the names must be
                 the same in every step.
             units: unit of each field, kept as an attribute.
+            shape: numbers of points along x and y of a grid, x slowest, whose triangles are the
+                cells; the same in every step.
 
         Raises:
             ValueError: an array has the wrong length, or the names differ from the first step's.
@@ -82,6 +88,8 @@ class ParticleFile:
             # The first step lays out the file; each later one must have the same fields.
             if "VTKHDF" not in file:
                 start_file(file, dimension, fields, units or {}, position.dtype, count)
+                if shape is not None:
+                    file.attrs["shape"] = shape
             root = file["VTKHDF"]
             if set(root["PointData"]) != set(fields):
                 raise ValueError("the fields of a step differ from those of the first step")
@@ -92,8 +100,9 @@ class ParticleFile:
             points = to_three_axes(position)
             point_offset = store_block(root["Points"], points)
             store_range(file, "position", points)
-            part, first_cell, first_point = store_cells(root, count, self.cells)
-            place = CELL_KINDS.index(self.cells)
+            cells = self.cells if shape is None else "Polygons"
+            part, first_cell, first_point = store_cells(root, count, cells, shape)
+            place = CELL_KINDS.index(cells)
             # Where the blocks of this step begin.
             extend(steps["Values"], [time])
             extend(steps["PartOffsets"], [part])
@@ -197,7 +206,7 @@ def start_file(
         group = root.create_group(kind)
         grow(group, "NumberOfCells", np.int64)
         grow(group, "NumberOfConnectivityIds", np.int64)
-        chunk = count if kind == "Vertices" else None
+        chunk = count if kind in ("Vertices", "Polygons") else None
         grow(group, "Connectivity", np.int64, chunk=chunk)
         grow(group, "Offsets", np.int64, chunk=chunk)
 
@@ -283,32 +292,50 @@ def value_range(block: np.ndarray) -> np.ndarray:
     return np.concatenate([np.ravel(end).astype(float) for end in ends])
 
 
-def store_cells(root: Any, count: int, cells: str) -> tuple[int, int, int]:
+def cells_of(
+    count: int, cells: CellKind, shape: tuple[int, int] | None
+) -> tuple[np.ndarray, np.ndarray]:
+    """Numbers of the points of all cells, end to end, and where in them each cell begins and ends.
+
+    Args:
+        count: number of points. cells, shape: see `store_cells`.
+    """
+    if shape is not None:
+        # points have x slowest, triangles count y rows
+        triangles = grid_triangles(np.arange(count).reshape(shape).T)
+        return triangles.ravel(), 3 * np.arange(len(triangles) + 1)
+    points = np.arange(count)
+    return points, np.arange(count + 1) if cells == "Vertices" else np.array([0, count])
+
+
+def store_cells(
+    root: Any, count: int, cells: CellKind, shape: tuple[int, int] | None = None
+) -> tuple[int, int, int]:
     """Cells of `count` points, written once as long as the number stays the same.
 
     Args:
-        cells: "Vertices", one for each point, or "Lines", one through all.
+        cells: "Vertices", one for each point, "Lines", one through all, or "Polygons", the
+            triangles of a grid of a shape.
 
     Returns:
         Number of the part, and of the first cell and connectivity entry in it.
     """
     numbers, group = root["NumberOfPoints"], root[cells]
-    # Where the cells end in the list of points: one each, or one for all.
-    ends = np.arange(count + 1) if cells == "Vertices" else np.array([0, count])
+    connected, ends = cells_of(count, cells, shape)
     # The number of points is as in the step before: its part is used again.
     part = numbers.shape[0] - 1
     if part >= 0 and int(numbers[part]) == count:
         written = int(np.sum(group["NumberOfCells"][:]))
-        return part, written - (ends.size - 1), group["Connectivity"].shape[0] - count
+        return part, written - (ends.size - 1), group["Connectivity"].shape[0] - connected.size
 
     # A new part: points in their order, and no cells of the other kinds.
     extend(numbers, [count])
     first_cell = int(np.sum(group["NumberOfCells"][:]))
-    first = extend(group["Connectivity"], np.arange(count))
+    first = extend(group["Connectivity"], connected)
     extend(group["Offsets"], ends)
     for kind in CELL_KINDS:
         extend(root[kind]["NumberOfCells"], [ends.size - 1 if kind == cells else 0])
-        extend(root[kind]["NumberOfConnectivityIds"], [count if kind == cells else 0])
+        extend(root[kind]["NumberOfConnectivityIds"], [connected.size if kind == cells else 0])
         if kind != cells:
             extend(root[kind]["Offsets"], [0])
     return part + 1, first_cell, first

@@ -26,7 +26,7 @@ from lasersph.output.older_results import (
     times,
 )
 from lasersph.output.particle_file import AXES, open_for_reading
-from lasersph.output.symmetry import is_axisymmetric, is_mirrored
+from lasersph.output.symmetry import is_axisymmetric, is_mirrored, mirrored_axes
 
 if TYPE_CHECKING:
     import anywidget  # pyright: ignore[reportMissingImports]
@@ -82,9 +82,14 @@ class Run:
 
     @property
     def symmetry_factor(self) -> int:
-        """2 where half a period or a section (r, z) was computed, mirrored about x = 0 by the other
-        half; else 1."""
+        """2 where half or a quarter of a period or a section (r, z) was computed, mirrored about
+        x = 0; else 1."""
         return 2 if is_mirrored(self.case) else 1
+
+    @property
+    def mirrored(self) -> tuple[bool, bool]:
+        """Whether x < 0, and whether y < 0, mirrors what was computed."""
+        return mirrored_axes(self.case)
 
     @property
     def across(self) -> str:
@@ -138,7 +143,8 @@ class Run:
 
     @cached_property
     def surface(self) -> Snapshots:
-        """The line of a surface that moves, at the times of the snapshots; none of a flat one."""
+        """The surface that moves, a line or in 3-D a grid, at the times of the snapshots; none of a
+        flat one."""
         return Snapshots(self.path / "surface.vtkhdf")
 
     def relief(self, time: float | None = None) -> HeightMap:
@@ -146,8 +152,9 @@ class Run:
 
             relief = lasersph.open_run("runs/texture-steel").relief()
             relief.x, relief.z[0]  # places and heights of a 2-D run, (nx,) each
+            relief.y, relief.z  # of a 3-D run, (ny,) and (ny, nx)
 
-        Half a period is mirrored.
+        Half and a quarter of a period are mirrored.
 
         Args:
             time: of the closest snapshot [s]; the last one where it is not given.
@@ -155,7 +162,7 @@ class Run:
         Raises:
             OutputError: no snapshots yet, or a surface that stayed flat.
         """
-        from lasersph.output.height_map import height_map, profile_map
+        from lasersph.output.height_map import height_map, profile_map, surface_map
 
         # A surface that moves has a line of its own; else the uppermost particles are the surface.
         steps = self.surface if len(self.surface) else self.snapshots
@@ -163,6 +170,8 @@ class Run:
             raise OutputError(f"{self.path} has no snapshots yet")
         step = steps[-1] if time is None else steps.nearest(time)
         try:
+            if steps is self.surface and steps.dimension == 3:
+                return surface_map(step, steps.shape, self.mirrored)
             if steps is self.surface:
                 return profile_map(step, is_half=self.symmetry_factor == 2)
             return height_map(step)
@@ -240,6 +249,13 @@ class Snapshots:
     def dimension(self) -> int:
         """Number of space dimensions of the run."""
         return self._read(lambda file: int(file.attrs["dimension"]))
+
+    @cached_property
+    def shape(self) -> tuple[int, int]:
+        """Numbers of points along x and y of a surface over a grid, x slowest. Raises KeyError of
+        other files."""
+        nx, ny = self._read(lambda file: file.attrs["shape"][:].tolist())
+        return nx, ny
 
     @cached_property
     def units(self) -> dict[str, str]:

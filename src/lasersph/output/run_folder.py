@@ -30,7 +30,7 @@ from typing import Any
 import numpy as np
 
 from lasersph.output import checkpoint as checkpoints
-from lasersph.output.atomic import TEMPORARY_SUFFIX, replace_json, replace_text
+from lasersph.output.atomic import TEMPORARY_SUFFIX, replace_json
 from lasersph.output.checkpoint import Checkpoint
 from lasersph.output.errors import FolderRefused, OutputError, clear_errors
 from lasersph.output.folder_lock import FolderLock, is_lock
@@ -285,14 +285,6 @@ class RunFolder:
         self.events.cut(0)
         self.particles.cut(0)
         self.surface.cut(0)
-
-    def write_profile(self, x: np.ndarray, height: np.ndarray) -> None:
-        """Write surface.csv: x and height of a surface at the end (columns,) [m].
-
-        Raises OutputError.
-        """
-        rows = (f"{a:.9g},{b:.9g}" for a, b in zip(x, height, strict=True))
-        replace_text(self.path / "surface.csv", "\n".join(["x_m,height_m", *rows, ""]))
 
     def finish(self, summary: Mapping[str, Any]) -> None:
         """Write summary.json: the run is complete. Raises OutputError.

@@ -12,5 +12,11 @@ def is_axisymmetric(case: Mapping[str, Any]) -> bool:
 
 
 def is_mirrored(case: Mapping[str, Any]) -> bool:
-    """Whether x < 0 mirrors what was computed, half a period or a section (r, z)."""
-    return case.get("domain", {}).get("extent") == "half" or is_axisymmetric(case)
+    """Whether x < 0 mirrors what was computed: half or a quarter of a period, or a section."""
+    return mirrored_axes(case)[0]
+
+
+def mirrored_axes(case: Mapping[str, Any]) -> tuple[bool, bool]:
+    """Whether x < 0, and whether y < 0, mirrors what was computed."""
+    extent = case.get("domain", {}).get("extent")
+    return extent in ("half", "quarter") or is_axisymmetric(case), extent == "quarter"

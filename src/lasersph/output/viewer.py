@@ -11,6 +11,7 @@ from lasersph.output.frame_blocks import particle_block, particle_index
 
 FILES = (
     "shaders.js",
+    "surface_body.js",
     "scene.js",
     "sources.js",
     "moments.js",

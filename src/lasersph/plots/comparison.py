@@ -24,7 +24,7 @@ from lasersph.plots.curves import (
     time_axis,
     where_above_zero,
 )
-from lasersph.plots.relief import lines_of
+from lasersph.plots.relief import has_lines, lines_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -130,7 +130,7 @@ def figures_of_two(runs: Sequence[Run], labels: Labels = None) -> dict[str, Figu
     where both have them, of trains of pulses since the start of the last."""
     found = {}
     # Reliefs are those at the end; curves of trains count from the last pulse.
-    if all(len(run.surface) > 0 for run in runs):
+    if all(has_lines(run) for run in runs):
         found["relief"] = reliefs(runs, labels)
     runs = [last_pulse(run) for run in runs]
     if all("temperature_at_maximum_K" in run.history for run in runs):

@@ -38,11 +38,16 @@ def lines_of(run: Run) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     return run.surface.times, x, height
 
 
+def has_lines(run: Run) -> bool:
+    """Whether the run has lines of a surface over x; a surface over x and y has maps."""
+    return len(run.surface) > 0 and run.surface.dimension == 2
+
+
 def relief_after_pulses(run: RunOrFolder) -> Figure | None:
     """The surface as it froze after 1, 2, 5, 10 ... pulses; None unless a pause was left out."""
     run = open_run(run)
     pulses = pulses_of(run)
-    if len(pulses) < 2 or len(run.surface) < 2:
+    if len(pulses) < 2 or len(run.surface) < 2 or not has_lines(run):
         return None
     _, x, _ = lines_of(run)
     # Each pulse leaves its last line behind.
@@ -54,7 +59,7 @@ def relief_after_pulses(run: RunOrFolder) -> Figure | None:
 def relief_profiles(run: RunOrFolder) -> Figure | None:
     """The surface at several times while it moves; None in a run whose surface is flat."""
     run = open_run(run)
-    if len(run.surface) < 2:
+    if len(run.surface) < 2 or not has_lines(run):
         return None
     times, x, height = lines_of(last_pulse(run))
     # From the first motion of the surface to the last, at even numbers of snapshots.
@@ -84,7 +89,7 @@ def profiles_figure(
 def relief_map(run: RunOrFolder) -> Figure | None:
     """Height of the surface over place and time; None where it stays flat."""
     run = open_run(run)
-    if len(run.surface) < 3:
+    if len(run.surface) < 3 or not has_lines(run):
         return None
     times, x, height = lines_of(last_pulse(run))
     length, time = style.fitting_unit("m", np.max(np.abs(x))), style.fitting_unit("s", times[-1])
@@ -111,7 +116,7 @@ def relief_map(run: RunOrFolder) -> Figure | None:
 def final_relief(run: RunOrFolder) -> Figure | None:
     """The surface at the end over the particles, which tell how far each has ever been molten."""
     run = open_run(run)
-    if not len(run.surface) or not len(run.snapshots) or run.snapshots.dimension != 2:
+    if not has_lines(run) or not len(run.snapshots):
         return None
 
     # particles are laid out anew in a pause: what lies where since then
@@ -163,7 +168,8 @@ def largest(height: np.ndarray) -> float:
 
 
 def topography_history(run: RunOrFolder) -> Figure | None:
-    """Depth and rim over time, and mean heights of the profile; None where the surface is flat."""
+    """Depth and rim over time, and mean heights of the profile or of the area; None where the
+    surface is flat."""
     run = open_run(run)
     if not np.any(run.history.get("topography.peak_to_valley_m", 0.0)):
         return None
@@ -173,7 +179,8 @@ def topography_history(run: RunOrFolder) -> Figure | None:
         "topography.rim_height_m": "height of the rim",
     }
     draw_columns(all_axes[0], run, extremes, label="distance")
-    means = {"topography.Pa_m": "Pa", "topography.Pq_m": "Pq"}
+    letter = "S" if "topography.Sa_m" in run.history else "P"
+    means = {f"topography.{letter}{one}_m": f"{letter}{one}" for one in "aq"}
     draw_columns(all_axes[1], run, means, label="mean height")
     for axes in all_axes:
         style.legend(axes)

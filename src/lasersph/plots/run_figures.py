@@ -27,6 +27,12 @@ from lasersph.plots.relief import (
     relief_profiles,
     topography_history,
 )
+from lasersph.plots.surface_maps import (
+    surface_flow_map,
+    surface_height_map,
+    surface_sections,
+    surface_temperature_map,
+)
 from lasersph.plots.surface_profiles import surface_flow_profiles, surface_profiles
 from lasersph.plots.uncertainty import tornado_chart
 
@@ -100,9 +106,30 @@ DRAWINGS = (
         relief_map,
     ),
     Drawing(
+        "surface-height",
+        "Height of the surface at the end, with lines of equal height; heights count from the"
+        " original surface.",
+        surface_height_map,
+    ),
+    Drawing(
+        "surface-sections",
+        "Sections through the surface at the end: along x, along y and along the diagonal x = y.",
+        surface_sections,
+    ),
+    Drawing(
+        "surface-speed",
+        "Speed of the surface when it was fastest, with streamlines of the liquid.",
+        surface_flow_map,
+    ),
+    Drawing(
+        "surface-temperature",
+        "Temperature of the surface when it was hottest. Lines: the melting range.",
+        surface_temperature_map,
+    ),
+    Drawing(
         "topography",
         "Depth of the lowest point and height of the rim over time (above); arithmetic and root"
-        " mean square height of the profile, Pa and Pq (below).",
+        " mean square height of the profile, Pa and Pq, or of the area, Sa and Sq (below).",
         topography_history,
     ),
     Drawing(

@@ -22,6 +22,8 @@ MOST_FRAMES = 24
 LARGEST = 5_000_000
 """Length of all blocks of a page [bytes]: a mail still carries it."""
 COLORED = ("temperature", "speed", "melt_fraction")
+ON_SURFACE = ("temperature", "speed", "height")
+"""Fields of a surface that is a body."""
 STEPS = 65535
 """Of 16-bit numbers."""
 
@@ -52,15 +54,14 @@ def embedded_frames(run: Run) -> dict[str, Any] | None:
     count, start = len(index["times"]), index["start"]
     if not count:
         return None
-    known = {one["name"] for one in index["fields"]}
-    names = ["position", "width", *(name for name in COLORED if name in known)]
+    names = ["position", "width", *(name for name in COLORED if name in index["blocks"])]
     places = np.linspace(0, count - 1, min(count, MOST_FRAMES)).astype(int)
     places[np.argmin(np.abs(places - start))] = start
     chosen = sorted(set(places.tolist()))
     # All blocks of these frames, each field in steps of its own range.
     encoded: dict[str, dict[str, Any]] = {}
     for field, blocks in block_names(part_of(index, names, chosen)).items():
-        encoded |= encode_field(run, blocks, 1 if field in COLORED else 3)
+        encoded |= encode_field(run, blocks, 3 if field.endswith(("position", "width")) else 1)
     # Half of the frames at a time, until the page is small enough.
     while True:
         found = part_of(index, names, chosen)
@@ -82,15 +83,19 @@ def part_of(index: dict[str, Any], names: list[str], chosen: list[int]) -> dict[
         blocks = {name: [file["blocks"][name][k] for k in chosen] for name in fields}
         return {"counts": [file["counts"][k] for k in chosen], "blocks": blocks}
 
-    # The line of a moving surface has the same frames.
+    # A surface that moves has the same frames; as a body it has colors of its own.
     line = index["surface"]
+    is_body = line is not None and (line["shape"] is not None or index["revolved"])
+    of_surface = [name for name in ON_SURFACE if is_body and name in line["blocks"]]
     return {
         **index,
         **cut(index, names),
         "times": [index["times"][k] for k in chosen],
         "start": chosen.index(index["start"]),
-        "fields": [one for one in index["fields"] if one["name"] in names],
-        "surface": None if line is None else cut(line, ["position"]),
+        "fields": [one for one in index["fields"] if one["name"] in (*names, *of_surface)],
+        "surface": None
+        if line is None
+        else {**cut(line, ["position", *of_surface]), "shape": line["shape"]},
     }
 
 

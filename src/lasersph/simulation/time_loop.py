@@ -13,8 +13,6 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from lasersph import compute
 from lasersph.case import Case
 from lasersph.input import format_quantity
@@ -35,6 +33,7 @@ from lasersph.simulation.known_loops import compiling_ahead
 from lasersph.simulation.progress import ProgressLines, RemainingTime, RunProgress
 from lasersph.simulation.recipes import Recipe, recipe_of
 from lasersph.simulation.run_origin import keep_layers, origin_of
+from lasersph.simulation.surface_output import append_surface, write_relief
 from lasersph.solvers.step_control import PAUSE, Solver, StepFailed, choose_step
 
 END_SHARE = 1.0 - 1e-12
@@ -356,7 +355,7 @@ class _Loop:
         # The line of a surface at the end, then the mark of a complete run.
         relief = self._view().relief
         if relief is not None:
-            self.folder.write_profile(relief.x, relief.height)
+            write_relief(self.folder.path, relief, self.case.domain.extent)
         self.folder.events.append("finished", time=state.time, step=self.steps)
         self.folder.log(f"finished after {self.steps} steps, {summary['wall_time_s']:.1f} s")
         self.folder.finish(summary)
@@ -377,8 +376,7 @@ class _Loop:
     def _snapshot(self, view: View) -> None:
         self.folder.particles.append(view.time, view.position, snapshot_fields(view), units=UNITS)
         if view.relief is not None:
-            line = np.array([view.relief.x, view.relief.height])
-            self.folder.surface.append(view.time, line, {})
+            append_surface(self.folder.surface, view)
 
     def _save(self, *, is_last: bool = False) -> None:
         state, backend = self.solver.state, self._backend

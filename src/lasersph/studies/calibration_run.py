@@ -40,8 +40,9 @@ from lasersph.studies.calibration_answer import (
 from lasersph.studies.calibration_plan import CalibrationPlan
 from lasersph.studies.calibration_reading import read_calibration_plan
 from lasersph.studies.posterior import GRID
-from lasersph.studies.texture.cells import Cell, read_cell
+from lasersph.studies.texture.cells import Cell
 from lasersph.studies.texture.compare import AnyRelief
+from lasersph.studies.texture.dot_cells import read_any_cell
 from lasersph.studies.texture.relief import repeating_relief
 from lasersph.studies.texture.round_relief import RoundRelief, read_round_relief
 from lasersph.studies.texture.spot import NoTexture
@@ -175,7 +176,7 @@ class _Runs:
     def _cell(self, row: Row, period: float) -> Cell | None:
         """The cell of a run, read once."""
         if row.status == "complete" and row.run not in self.cells:
-            self.cells[row.run] = read_cell(open_run(self.path / RUNS / row.run), period)
+            self.cells[row.run] = read_any_cell(open_run(self.path / RUNS / row.run), period)
         return self.cells.get(row.run)
 
     def _round(self, row: Row) -> RoundRelief | None:

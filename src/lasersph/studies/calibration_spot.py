@@ -16,10 +16,11 @@ import numpy as np
 
 from lasersph.case import Case
 from lasersph.studies.texture.cells import Cell
+from lasersph.studies.texture.dots import AnyTable, table_of
 from lasersph.studies.texture.make import KEY, LIGHT, cell_fluences, cell_settings, spot_of
 from lasersph.studies.texture.relief import Relief
 from lasersph.studies.texture.spot import half_sizes
-from lasersph.studies.texture.table import FEWEST_CELLS, ROUNDING, CellTable
+from lasersph.studies.texture.table import FEWEST_CELLS, ROUNDING
 from lasersph.sweeps import CaseTemplate, Point
 from lasersph.sweeps.points import Value
 
@@ -45,7 +46,7 @@ class SpotCells:
     high: Settings
     count: int
     _points: dict[Name, list[Point]] = field(default_factory=dict)
-    _tables: dict[Name, CellTable] = field(default_factory=dict)
+    _tables: dict[Name, AnyTable] = field(default_factory=dict)
     _reliefs: dict[Name, Relief] = field(default_factory=dict)
 
     @property
@@ -101,7 +102,7 @@ class SpotCells:
         if len(done) < FEWEST_CELLS or done[-1][0] * (1.0 + ROUNDING) < spot.center:
             return None
         if name not in self._tables:
-            self._tables[name] = CellTable.of(done, period, case.initial_temperature)
+            self._tables[name] = table_of(done, period, case.initial_temperature)
         table = self._tables[name]
         # local fluence on a grid over all that the cells change
         x, y = (

@@ -14,7 +14,7 @@ from lasersph.input import Fraction, Length, Model
 from lasersph.output.height_map import HeightMap
 from lasersph.output.surface_files.read import read_surface
 from lasersph.studies.texture.compare import SCALE_ERROR
-from lasersph.studies.texture.make import period_of_lines, spot_of
+from lasersph.studies.texture.make import period_of_pattern, spot_of
 from lasersph.studies.texture.measurement import (
     NoComparison,
     point_noise,
@@ -66,7 +66,7 @@ def read_target(entry: ProfileEntry, folder: Path, contents: CaseContents) -> Pr
     if contents.geometry.is_axisymmetric:
         return _round_target(entry, folder, contents)
     is_spot = laser is not None and laser.spot is not None
-    period = spot_of(contents)[1] if is_spot else period_of_lines(contents)
+    period = spot_of(contents)[1] if is_spot else period_of_pattern(contents)
     if is_spot and laser is not None and laser.displacement and laser.pulse.count > 1:
         raise NoComparison(
             "the spot of the case moves from pulse to pulse: what is measured is one spot; leave "

@@ -230,16 +230,21 @@ class HeightField:
         """Smoothed field of heights 1 over pins at 0, by which the volume is kept."""
         return self.smooth(np.ones(self.shape), EVEN_PARITY, 0.0)
 
-    def first_harmonic(self, period: float) -> float:
-        """(2/period) times the integral over x of eta cos(2 pi x/period) over a period [m].
+    def first_harmonic(self, *periods: float) -> float:
+        """First harmonic of a pattern of periods [m], one for each axis of the first ones.
 
-        The field spans whole periods along x, or half of one from x = 0 on, which is mirrored; the
-        mean over a column of the cosine is taken exactly, that over other axes as well.
+        (2/Lx) times the integral over x of eta cos(2 pi x/Lx) over a period, of both axes 4/(Lx Ly)
+        times that over x and y of eta cos(2 pi x/Lx) cos(2 pi y/Ly). The field spans whole periods
+        along each of them, or half of one from 0 on, which is mirrored; the mean over a column of
+        the cosine is taken exactly, that over other axes as well.
         """
-        k = 2.0 * pi / period
-        mean_cosine = np.cos(k * self.centers()) * np.sinc(self.widths[0] / period)
-        section = self.height.reshape(self.shape[0], -1).mean(axis=1)
-        return float(2.0 * np.mean(section * mean_cosine))
+        found = self.height
+        for axis, period in enumerate(periods):
+            cosine = np.cos(2.0 * pi / period * self.centers(axis))
+            mean_cosine = cosine * np.sinc(self.widths[axis] / period)
+            # twice the mean over this axis, which is then gone
+            found = 2.0 * np.tensordot(mean_cosine, found, axes=1) / mean_cosine.size
+        return float(np.mean(found))
 
     def at_nodes(self, values: Array, *odd_axes: int) -> Array:
         """Values `shape` with two more at either end of each axis, flattened; they are odd along

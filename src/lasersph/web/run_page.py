@@ -181,7 +181,8 @@ def results(summary: dict[str, Any]) -> list[dict[str, Any]]:
 
 
 def relief(entry: Entry) -> dict[str, list[float]]:
-    """Places and heights of the surface at the end [m], also of the mirror image of half a period.
+    """Places and heights of the surface at the end [m], also of the mirror image of half a period;
+    of a run in 3-D along x at y = 0.
 
     Raises:
         KeyError: the surface did not move, or the run is not at its end. OutputError: the file is
@@ -191,9 +192,15 @@ def relief(entry: Entry) -> dict[str, list[float]]:
     if not path.is_file():
         raise KeyError(path.name)
     with telling_damage(entry), path.open(newline="", encoding="utf-8") as stream:
-        # Half a period is mirrored.
-        rows = [(float(row["x_m"]), float(row["height_m"])) for row in csv.DictReader(stream)]
-        if open_run(entry.path).symmetry_factor == 2:
+        # Of a surface over x and y, which is whole, the row next to y = 0.
+        found = list(csv.DictReader(stream))
+        is_area = bool(found) and "y_m" in found[0]
+        if is_area:
+            middle = min((float(row["y_m"]) for row in found), key=lambda y: (abs(y), y))
+            found = [row for row in found if float(row["y_m"]) == middle]
+        # Half a period of a line is mirrored.
+        rows = [(float(row["x_m"]), float(row["height_m"])) for row in found]
+        if not is_area and open_run(entry.path).symmetry_factor == 2:
             rows = [*((-x, height) for x, height in reversed(rows) if x > 0.0), *rows]
     return {"x": [x for x, _ in rows], "height": [height for _, height in rows]}
 

@@ -4,7 +4,8 @@
 // turn (p - center) / metersPerPixel. In the plane x points right and z up; in space the mouse
 // turns the view about the body. While a large cloud moves, a random part of it is drawn.
 
-import { COLORS, ramp, CELL, FLAT, PLAIN, ROUND, SEGMENT, SPHERE, VIEW } from "./shaders.js";
+import { COLORS, ramp, CELL, FLAT, LIT, PLAIN, ROUND, SEGMENT, SPHERE, SURFACE, VIEW } from "./shaders.js";
+import { boxOf, drawSurface } from "./surface_body.js";
 
 const MOVING = 100000;  // particles drawn while a cloud moves that takes longer than SLOW to draw
 const SLOW = 60;        // [ms]
@@ -12,7 +13,8 @@ const TURN = 0.008;     // radians per pixel of the mouse
 const EDGE = 16;        // pixels left free beside the body
 const NARROW = 520;     // pixels of a window whose color bar is small, as in viewer_look.js
 
-const PROGRAMS = { cells: [CELL, FLAT], spheres: [SPHERE, ROUND], segments: [SEGMENT, PLAIN] };
+const PROGRAMS = { cells: [CELL, FLAT], spheres: [SPHERE, ROUND], segments: [SEGMENT, PLAIN],
+  surfaces: [SURFACE, LIT] };
 
 let spare = null; // a scene that waits for its first particles
 
@@ -56,7 +58,8 @@ export class Scene {
     this.programs = {};
     this.arrays = new Map();
     this.buffers = {};
-    for (const name of ["position", "width", "value", "gate", "line", "corner", "order"])
+    for (const name of ["position", "width", "value", "gate", "line", "corner", "order",
+      "point", "normal", "level", "triangles"])
       this.buffers[name] = gl.createBuffer();
     this.fill("corner", new Float32Array([-1, -1, 1, -1, -1, 1, 1, 1]));
     this.texture = gl.createTexture();
@@ -130,7 +133,8 @@ export class Scene {
     this.kept = kept;
     this.cut = [0, 0, 0, 3e38];
     if (axis >= 0) {
-      const [low, high] = this.index.bounds[axis];
+      const [least, high] = this.index.bounds[axis], { mirrored, mirrored_y: mirroredY } = this.index;
+      const low = [mirrored, mirroredY, false][axis] ? -high : least;
       const toward = axis === 1 ? -1 : 1;  // y is cut in front of the plane, x and z behind it
       this.cut[axis] = toward;
       this.cut[3] = toward * (low + part * (high - low));
@@ -141,11 +145,11 @@ export class Scene {
   // Look at the box that the first frame shown asked for.
   goHome() {
     const [x, y, z] = (this.box ??= this.homeBox());
-    const space = this.index.dimensions === 3;
+    const space = this.space;
     this.center = [x, y, z].map(([low, high]) => 0.5 * (low + high));
     [this.yaw, this.pitch] = space ? [0.55, 0.5] : [0, 0];
     const { clientWidth: wide, clientHeight: high } = this.canvas;
-    const across = space ? 1.25 * Math.max(x[1] - x[0], y[1] - y[0]) : x[1] - x[0];
+    const across = space ? 1.4 * Math.max(x[1] - x[0], y[1] - y[0]) : x[1] - x[0];
     const up = space ? 0.88 * (z[1] - z[0]) + 0.66 * (y[1] - y[0]) : z[1] - z[0];
     const bar = wide > NARROW ? 160 : 112;  // pixels of the color bar, at the right
     this.metersPerPixel = Math.max(across / (wide - bar - 2 * EDGE), up / (high - 70), 1e-15);
@@ -156,9 +160,14 @@ export class Scene {
 
   // The body as it lay at first and what is close above it; of a deep plane what became warm.
   homeBox() {
-    const { bounds, mirrored, dimensions } = this.index;
+    const { bounds, mirrored, mirrored_y: mirroredY, dimensions } = this.index;
     const [x, y, z] = bounds.map(([low, high]) => [low, high]);
     if (mirrored) x[0] = -x[1];
+    if (mirroredY) y[0] = -y[1];
+    if (this.frame.grid && !this.frame.hasParticles) {
+      this.column = 0;
+      return boxOf(this.frame.grid);
+    }
     const tall = z[1] - z[0];
     this.column = 0.25 * tall;
     if (dimensions === 1) [x[0], x[1]] = [-0.5 * this.column, 0.5 * this.column];
@@ -166,6 +175,11 @@ export class Scene {
       z[0] = Math.max(z[0], z[1] - Math.max(this.warmDepth(), 0.3 * (x[1] - x[0])));
     z[1] += Math.max(0, Math.min(this.highest() - z[1], 0.4 * tall));
     return [x, y, z];
+  }
+
+  // Whether what is shown is turned, not only moved.
+  get space() {
+    return this.index.dimensions === 3 || Boolean(this.frame?.grid);
   }
 
   highest() {
@@ -217,7 +231,7 @@ export class Scene {
 
   // Draw `count` particles of the frame; returns the time that it took [ms].
   draw(count = this.count) {
-    const gl = this.gl, canvas = this.canvas, { dimensions, mirrored } = this.index;
+    const gl = this.gl, canvas = this.canvas, { grid } = this.frame;
     const dense = Math.min(devicePixelRatio || 1, 2), began = performance.now();
     for (const [side, size] of [["width", canvas.clientWidth], ["height", canvas.clientHeight]]) {
       const pixels = Math.max(1, Math.round(size * dense));
@@ -226,6 +240,22 @@ export class Scene {
     gl.viewport(0, 0, canvas.width, canvas.height);
     gl.clearColor(0, 0, 0, 0);
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+    if (!grid || this.frame.hasParticles) this.drawParticles(count, dense);
+    if (grid) drawSurface(this, dense);
+    else if (this.frame.line && this.index.dimensions === 2) this.drawLine(dense);
+    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));  // wait for the card
+    this.lastDrawn = performance.now() - began;
+    return this.lastDrawn;
+  }
+
+  // The mirror images that belong to the body, as signs of x and y.
+  sides() {
+    const { mirrored, mirrored_y: mirroredY } = this.index;
+    return (mirrored ? [-1, 1] : [1]).flatMap((x) => (mirroredY ? [-1, 1] : [1]).map((y) => [x, y]));
+  }
+
+  drawParticles(count, dense) {
+    const gl = this.gl, { dimensions } = this.index;
     const program = this.program(dimensions === 3 ? "spheres" : "cells");
     this.use(program, dense);
     gl.uniform2fv(gl.getUniformLocation(program, "kept"), this.kept);
@@ -239,8 +269,8 @@ export class Scene {
     if (!this.frame.gate) gl.uniform2f(gl.getUniformLocation(program, "kept"), -3e38, 3e38);
     this.attach(program, "corner", "corner", 2, 0);
     (dimensions === 3 ? gl.enable : gl.disable).call(gl, gl.DEPTH_TEST);
-    for (const side of mirrored ? [-1, 1] : [1]) {
-      gl.uniform1f(gl.getUniformLocation(program, "side"), side);
+    for (const side of this.sides()) {
+      gl.uniform2f(gl.getUniformLocation(program, "side"), ...side);
       if (dimensions === 3) {
         // a little larger than their cell they close the body; where only a part is drawn, too
         gl.uniform1f(gl.getUniformLocation(program, "swell"), 0.6 * Math.cbrt(this.count / count));
@@ -253,10 +283,6 @@ export class Scene {
         gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, count);
       }
     }
-    if (this.frame.line && dimensions === 2) this.drawLine(dense);
-    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));  // wait for the card
-    this.lastDrawn = performance.now() - began;
-    return this.lastDrawn;
   }
 
   // The surface that moves: a white line with a dark edge.
@@ -267,8 +293,8 @@ export class Scene {
     this.attach(program, "from", "line", 3, 1);
     this.attach(program, "to", "line", 3, 1, 12);
     for (const [thickness, ink] of [[4.5, [0.05, 0.07, 0.1, 1]], [2, [1, 1, 1, 1]]])
-      for (const side of this.index.mirrored ? [-1, 1] : [1]) {
-        gl.uniform1f(gl.getUniformLocation(program, "side"), side);
+      for (const side of this.sides()) {
+        gl.uniform2f(gl.getUniformLocation(program, "side"), ...side);
         gl.uniform1f(gl.getUniformLocation(program, "thickness"), thickness * dense);
         gl.uniform4fv(gl.getUniformLocation(program, "ink"), ink);
         gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, this.frame.line.length / 3 - 1);
@@ -324,7 +350,7 @@ export class Scene {
         const other = [...fingers.values()].find((one) => one.pointerId !== event.pointerId);
         const far = (one) => Math.hypot(one.clientX - other.clientX, one.clientY - other.clientY);
         this.zoom(far(before) / Math.max(far(event), 1), event);
-      } else if (this.index.dimensions === 3 && !event.shiftKey && !(event.buttons & 2)) {
+      } else if (this.space && !event.shiftKey && !(event.buttons & 2)) {
         this.yaw -= TURN * x;
         this.pitch = Math.max(-1.57, Math.min(1.57, this.pitch + TURN * y));
       } else this.shift(-x, y);

@@ -26,12 +26,12 @@ export function ramp(colors) {
 export const VIEW = `#version 300 es
 precision highp float;
 uniform mat3 turn; uniform vec3 center; uniform vec2 halfWindow; uniform float metersPerPixel, reach;
-uniform vec2 range, kept; uniform vec4 cut; uniform float side;
+uniform vec2 range, kept, side; uniform vec4 cut;
 out float shade;
-vec3 place(vec3 p) { return turn * (vec3(side * p.x, p.yz) - center) / metersPerPixel; }
+vec3 place(vec3 p) { return turn * (vec3(side * p.xy, p.z) - center) / metersPerPixel; }
 vec4 onScreen(vec3 p) { return vec4(p.xy / halfWindow, p.z * metersPerPixel / reach, 1.0); }
 bool isHidden(vec3 p, float gate) {
-  return gate < kept.x || gate > kept.y || dot(cut.xyz, vec3(side * p.x, p.yz)) > cut.w;
+  return gate < kept.x || gate > kept.y || dot(cut.xyz, vec3(side * p.xy, p.z)) > cut.w;
 }
 `;
 // A particle of a section: a rectangle of its width.
@@ -63,6 +63,26 @@ void main() {
   p.xy += 0.5 * thickness * (corner.x * along + corner.y * vec2(-along.y, along.x));
   gl_Position = onScreen(p);
   shade = 0.0;
+}`;
+// A point of a surface that is a body, with its normal as the window sees it.
+export const SURFACE = `
+in vec3 point, normal; in float level; uniform float lift; out vec3 facing; out float beyond;
+void main() {
+  shade = clamp((level - range.x) / (range.y - range.x), 0.0, 1.0);
+  facing = turn * normal;
+  beyond = dot(cut.xyz, point) - cut.w;
+  gl_Position = onScreen(place(point));
+  gl_Position.z -= lift / reach;
+}`;
+export const LIT = `#version 300 es
+precision highp float;
+in float shade, beyond; in vec3 facing; uniform sampler2D colors; out vec4 color;
+void main() {
+  if (beyond > 0.0) discard;
+  vec3 normal = normalize(facing) * (facing.z > 0.0 ? -1.0 : 1.0);
+  float light = max(dot(normal, normalize(vec3(-0.45, 0.75, -0.65))), 0.0);
+  vec3 own = texture(colors, vec2(shade, 0.5)).rgb;
+  color = vec4(own * (0.45 + 0.15 * normal.y + 0.5 * light) + 0.08 * pow(light, 24.0), 1.0);
 }`;
 // Colors of the pieces: from the scale, a lit sphere, or one ink.
 export const FLAT = `#version 300 es

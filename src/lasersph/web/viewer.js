@@ -13,6 +13,7 @@ import { readyScene } from "./scene.js";
 import { moment } from "./moments.js";
 import { kernel } from "./sources.js";
 import { BEYOND, FREE, gatesOf, gateWords, isFlat, rangeOf, tellingField } from "./viewer_fields.js";
+import { BODIES, hasBody, loadBody, surfaceGrid } from "./surface_body.js";
 import { CSS, HTML } from "./viewer_look.js";
 
 // Steps of play [ms], pauses between tries [ms], between two looks at a growing run, memory [bytes]
@@ -77,11 +78,14 @@ export function mount(element, source, options = {}) {
   }
 
   async function loadFrame(number, name) {
-    const names = [...new Set(["position", "width", name, ...(gate ? [gate.field] : [])])];
+    // a field of the surface alone colors no particles: they lie in the dark of its scale
+    const own = name in index.blocks ? name : "temperature";
+    const names = [...new Set(["position", "width", own, ...(gate ? [gate.field] : [])])];
     const blocks = await Promise.all(names.map((one) => fetchBlock("particles", one, number)));
     const block = Object.fromEntries(names.map((one, k) => [one, blocks[k]]));
-    const line = index.surface ? await fetchBlock("surface", "position", number) : null;
-    return { position: block.position, width: block.width, value: block[name], line,
+    const { line, level } = await loadBody(index, fetchBlock, number, name);
+    const value = own === name ? block[own] : new Float32Array(block[own].length).fill(-BEYOND);
+    return { position: block.position, width: block.width, value, line, level,
       gate: gate && block[gate.field] };
   }
 
@@ -159,9 +163,13 @@ export function mount(element, source, options = {}) {
     if (gateWords(index) !== before) offerGates();
     if (!first) return;
     part(".title").textContent = index.case;
-    part(".cuts").hidden = index.dimensions < 3;
-    for (const choice of [".field", ".measure"])
-      part(choice).replaceChildren(...index.fields.map((one) => new Option(one.label, one.name)));
+    part(".bodies").hidden = !hasBody(index);
+    part(".body").replaceChildren(...BODIES.map(([words, value]) => new Option(words, value)));
+    part(".body").value = BODIES[index.dimensions === 3 && hasBody(index) ? 1 : 0][1];
+    showCuts();
+    const gated = index.fields.filter((one) => one.name in index.blocks);
+    for (const [choice, fields] of [[".field", index.fields], [".measure", gated]])
+      part(choice).replaceChildren(...fields.map((one) => new Option(one.label, one.name)));
   }
 
   // What can be shown grows with the run, which melts and boils while it is watched.
@@ -181,11 +189,28 @@ export function mount(element, source, options = {}) {
     if (isFlat([low, high])) [low, high] = [low - 1, low + 1];
     const colors = signed ? "signed" : field.includes("temperature") ? "heat"
       : field.endsWith("fraction") ? "share" : "amount";
+    const shape = hasBody(index) && JSON.parse(part(".body").value);
+    loaded.grid = shape ? surfaceGrid(index, loaded.line, loaded.level, shape.times) : null;
+    loaded.hasParticles = !shape || Boolean(shape.particles && index.dimensions === 3);
     scene.load(loaded, index, { low, high, colors });
     if (home) scene.goHome();
     home = false;
     applyFilters();
     drawLegend(info, low, high, colors);
+  }
+
+  // Another body is looked at anew.
+  function chooseBody() {
+    showCuts();
+    scene.box = null;
+    home = true;
+    if (loaded) draw();
+  }
+
+  function showCuts() {
+    const isFlat = index.dimensions < 3 && part(".body").value === BODIES[0][1];
+    part(".cuts").hidden = isFlat;
+    if (isFlat) part(".axis").value = "-1";
   }
 
   function applyFilters() {
@@ -303,6 +328,7 @@ export function mount(element, source, options = {}) {
   part(".live").addEventListener("click", () => setLive(!live));
   part(".play").addEventListener("click", () => { setLive(false); play(!playing); });
   part(".home").addEventListener("click", () => loaded && scene.goHome());
+  part(".body").addEventListener("change", chooseBody);
   for (const name of [".axis", ".cut"])
     part(name).addEventListener("input", () => loaded && applyFilters());
   part(".gate").addEventListener("input", () => {

@@ -68,6 +68,7 @@ export const HTML = `
       <input class="least" type="number" step="any" aria-label="At least" placeholder="any"> to
       <input class="most" type="number" step="any" aria-label="At most" placeholder="any">
       <span class="unit"></span></span>
+    <label class="bodies" hidden>Body <select class="body" aria-label="Body"></select></label>
     <label class="cuts">Cut <select class="axis" aria-label="Cut"><option value="-1">none</option>
       <option value="0">x</option><option value="1">y</option><option value="2">z</option></select>
       <input class="cut" type="range" min="0" max="1" step="0.005" value="0.5"

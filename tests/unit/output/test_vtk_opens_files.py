@@ -99,3 +99,35 @@ def test_particles(tmp_path, dimension, cells):
         assert_array_equal(found["temperature"], fields["temperature"])
         assert_array_equal(found["kind"], fields["kind"])
         assert_array_equal(found["velocity"][:, AXES[dimension]], fields["velocity"].T)
+
+
+def test_triangulated_surface(tmp_path):
+    """Triangles of a grid in every step, each with its normal upward; together they cover it."""
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+
+    shape, file = (7, 5), ParticleFile(tmp_path / "surface.vtkhdf", "Lines")
+    x, y = np.meshgrid(0.5 * np.arange(7.0), 0.25 * np.arange(5.0), indexing="ij")
+    random = np.random.default_rng(2)
+    steps = []
+    for k in range(3):
+        position = np.stack([x.ravel(), y.ravel(), 1e-3 * random.random(35)])
+        fields = {
+            "temperature": random.random(35).astype(np.float32),
+            "velocity": random.random((3, 35)),
+        }
+        file.append(1e-9 * k, position, fields, units={"temperature": "K"}, shape=shape)
+        steps.append((position, fields))
+    file.cut(2)
+    file.append(3e-9, *steps[2], shape=shape)
+    for k, (position, fields) in enumerate(steps):
+        data = opened(file.path, k)
+        points = vtk_to_numpy(data.GetPoints().GetData())
+        assert_array_equal(points, position.T)
+        assert (data.GetNumberOfPolys(), data.GetNumberOfLines()) == (2 * 6 * 4, 0)
+        corners = vtk_to_numpy(data.GetPolys().GetConnectivityArray()).reshape(-1, 3)
+        a, b, c = (points[corners[:, n]] for n in range(3))
+        upward = 0.5 * np.cross(b - a, c - a)[:, 2]
+        assert np.all(upward > 0.0)
+        assert_allclose(upward.sum(), np.ptp(x) * np.ptp(y))
+        assert_array_equal(arrays_of(data)["temperature"], fields["temperature"])
+        assert_array_equal(arrays_of(data)["velocity"], fields["velocity"].T)

@@ -223,7 +223,7 @@ def test_answer_in_a_folder(tmp_path, monkeypatch):
         table = reliefs_of_runs([{"laser.fluence": run.summary["fluence"]}])[0].table
         return Cell(table.x, {"height": table.values["height"][0]}, True)
 
-    monkeypatch.setattr(calibration_run, "read_cell", from_summary)
+    monkeypatch.setattr(calibration_run, "read_any_cell", from_summary)
     out = tmp_path / "out"
     plan = plan_of(tmp_path, measurement(1.05))
     content = lasersph.calibrate(plan, out, engine=ReliefEngine())
@@ -246,7 +246,7 @@ def test_hidden_factor_of_a_spot(tmp_path, monkeypatch):
         x = (np.arange(100) + 0.5) * period / 100
         return Cell(x, {name: pools(run.summary["fluence"], x) for name in UNITS}, True)
 
-    monkeypatch.setattr(calibration_run, "read_cell", from_summary)
+    monkeypatch.setattr(calibration_run, "read_any_cell", from_summary)
     x = np.linspace(-24 * UM, 24 * UM, 385)
     fluence = spot(center=0.95 * 4500.0).at(*np.meshgrid(x, x))
     hidden = Relief("hidden", table(24, 400, pools), x, x, fluence)

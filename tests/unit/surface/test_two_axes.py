@@ -138,6 +138,20 @@ def test_even_along_y_is_the_line(ends):
     assert found.first_harmonic(2.0 * SIDE) == pytest.approx(line.first_harmonic(2.0 * SIDE))
 
 
+def test_first_harmonic_along_both_axes():
+    """4/(Lx Ly) times the integral of a cos cos and other waves is a, less what columns average."""
+    found = field()
+    x, y = places(found)
+    k, q = np.pi / SIDE, np.pi / np.ptp(y) * (1.0 - 1.0 / found.shape[1])
+    found.height = 3e-8 * np.cos(k * x) * np.cos(q * y) + 1e-8 * np.cos(k * x) - 2e-8
+    kept = np.prod([np.sinc(0.5 / count) for count in found.shape])
+    found_a = found.first_harmonic(2.0 * SIDE, 2.0 * np.pi / q)
+    assert found_a == pytest.approx(3e-8 * kept, rel=1e-12, abs=0.0)
+    assert found.first_harmonic(2.0 * SIDE) == pytest.approx(
+        1e-8 * np.sinc(0.5 / found.shape[0]), rel=1e-12, abs=0.0
+    )
+
+
 def test_parity_along_each_axis():
     """sin kx cos ky is odd along x alone; v along y is odd there."""
     found = field()

@@ -114,6 +114,7 @@ class HeatRecipe(Recipe[HeatT, SolverT]):
         return heat_observers(
             self.settings.dimensions,
             amount_dimension=self.case.geometry.amount_dimension,
+            periodic=self.periodic,
             pulses=self.pulse_observer(),
             probes=self.case.probes,
             iterations=iterations,

@@ -110,6 +110,13 @@ class Recipe(ABC, Generic[SettingsT, SolverT]):
         spot moves along the surface."""
         return estimate_with_vapor(self.case, self.melt)
 
+    @property
+    def periodic(self) -> tuple[bool, bool]:
+        """Whether x and y repeat beyond their ends."""
+        kinds = (self.case.boundaries.kind_of(side) for side in ("left", "front"))
+        x, y = (kind == "periodic" for kind in kinds)
+        return x, y
+
     @cached_property
     def mirror_images(self) -> int:
         """How many times the computed part makes up the whole."""

@@ -32,13 +32,15 @@ class Cell:
 
     Attributes:
         x: (columns,) places, rising, one period from its brightest line at 0 [m].
-        values: (columns,) of each name of `UNITS`.
+        values: (columns,) of each name of `UNITS`; (columns, rows) of dots.
         is_solid: whether nothing is molten at the end of the run.
+        y: (rows,) places along y of dots [m]; None of lines.
     """
 
     x: Array
     values: dict[str, Array]
     is_solid: bool
+    y: Array | None = None
 
 
 def read_cell(run: Run, period: float) -> Cell:
@@ -62,14 +64,9 @@ def read_cell(run: Run, period: float) -> Cell:
 
     # largest values over the snapshots, of particles and of the surface
     first = run.snapshots[0]
-    shape = first["temperature"].shape
-    melted, hottest = np.zeros(shape), np.zeros(shape)
+    melted, hottest = largest_of_particles(run)
     temperature, speed = np.zeros(x.size), np.zeros(x.size)
     for step in run.snapshots:
-        if step["temperature"].shape != shape:
-            raise OutputError(f"{run.path}: the number of particles changes")
-        np.maximum(melted, step["melt_fraction"], out=melted)
-        np.maximum(hottest, step["temperature"], out=hottest)
         # a surface that flows has values of its own; else those of the uppermost particle
         top = uppermost(step, columns_of(step["position"][0]))
         at, wet = step["position"][0, top], (step["surface"][top] > 0) & (step["flows"][top] > 0)
@@ -90,6 +87,22 @@ def read_cell(run: Run, period: float) -> Cell:
     ordered = {name: np.array(one, float)[order] for name, one in values.items()}
     is_solid = not run.summary.get("melt", {}).get("molten_at_end", False)
     return Cell((x % period)[order], ordered, is_solid)
+
+
+def largest_of_particles(run: Run) -> tuple[Array, Array]:
+    """Largest melt fraction and temperature [K] of each particle over the snapshots, (n,).
+
+    Raises:
+        OutputError: particles come or go.
+    """
+    shape = run.snapshots[0]["temperature"].shape
+    melted, hottest = np.zeros(shape), np.zeros(shape)
+    for step in run.snapshots:
+        if step["temperature"].shape != shape:
+            raise OutputError(f"{run.path}: the number of particles changes")
+        np.maximum(melted, step["melt_fraction"], out=melted)
+        np.maximum(hottest, step["temperature"], out=hottest)
+    return melted, hottest
 
 
 def uppermost(step: dict[str, Array], column: NDArray[np.int64]) -> NDArray[np.int64]:
@@ -117,16 +130,19 @@ def depth_below(
         melted, hottest: (n,) largest melt fraction and temperature [K] of each particle.
         melting: middle of the melting range [K].
     """
-    z, found = first["position"][1], np.zeros(columns)
+    z, found = first["position"][-1], np.zeros(columns)
     spacing = np.min(first["width"][0])
     is_fine = np.abs(first["width"][0] - spacing) < PERIOD_FITS * spacing
+    # particles column by column, each from the top down
+    fine = np.flatnonzero(is_fine)
+    fine = fine[np.lexsort((-z[fine], column[fine]))]
+    begins = np.searchsorted(column[fine], np.arange(columns + 1))
     for k in np.unique(column[(melted >= HALF) & is_fine]):
-        # particles of the column from the top down, and the deepest that was half molten
-        rows = np.flatnonzero((column == k) & is_fine)
-        rows = rows[np.argsort(-z[rows], kind="stable")]
+        # the deepest that was half molten
+        rows = fine[begins[k] : begins[k + 1]]
         deepest = int(np.flatnonzero(melted[rows] >= HALF)[-1])
         if deepest + 1 == rows.size:
-            found[k] = -z[rows[deepest]] + 0.5 * first["width"][1, rows[deepest]]
+            found[k] = -z[rows[deepest]] + 0.5 * first["width"][-1, rows[deepest]]
             continue
         # half molten between two particles, by melt fraction, and by temperature where they differ
         a, b = rows[deepest], rows[deepest + 1]

@@ -20,6 +20,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from itertools import product
 from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
@@ -148,7 +149,7 @@ class _Alignment:
         knowable = {
             "rotation_rad": is_map and not relief.is_round,
             "fluence_factor": relief.tells_fluence,
-            "shift_y_m": is_map and relief.is_spot,
+            "shift_y_m": (is_map and relief.is_spot) or has_dots(relief),
         }
         names += [name for name, is_known in knowable.items() if is_known]
         noise = max(point_noise(surface.z), 1e-6 * float(np.std(z - basis @ (basis.T @ z))))
@@ -213,14 +214,20 @@ class _Alignment:
         if "rotation_rad" in self.names:
             values["rotation_rad"] = rotation_of(self.surface, period, LARGEST_TURN)
 
-        # each place and factor, leveled; the best few are followed
+        # each place and factor, leveled; the best few are followed; dots repeat along y as well
+        offsets = np.zeros(1)
+        if has_dots(relief) and not relief.is_spot:
+            reach_y = 0.5 * (relief.period_y or 0.0)
+            offsets = np.arange(-reach_y, reach_y, period / STARTS_A_PERIOD) / period
+            values["shift_y_m"] = 0.0
         factors = [relief.largest_factor * k for k in (0.97, 0.8)]
         factors = factors if relief.tells_fluence else [1.0]
         found = []
         for factor in factors:
             heights = relief.sampled(factor, period / STARTS_A_PERIOD)
-            for shift in shifts:
+            for shift, offset in product(shifts, offsets):
                 every = {**values, "shift_x_m": shift, "fluence_factor": factor}
+                every["shift_y_m"] += offset
                 one = np.array([every[name] for name in self.names])
                 left = self.leveled(self.z - heights(*self.places(one)))
                 found.append((float(left @ left), one))
@@ -266,6 +273,11 @@ class _Alignment:
             (factor, float(np.sqrt(variance * tau / (flat @ flat)))),
             relief.error,
         )
+
+
+def has_dots(relief: AnyRelief) -> bool:
+    """Whether a relief varies along y as its cells do."""
+    return isinstance(relief, Relief) and relief.period_y is not None
 
 
 def answer(found: Comparison) -> dict[str, Any]:

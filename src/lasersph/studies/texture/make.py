@@ -26,9 +26,11 @@ from lasersph.output.errors import clear_errors
 from lasersph.output.height_map import HeightMap
 from lasersph.output.image_file import Maps, write_maps
 from lasersph.simulation.layers import expected_melt
-from lasersph.studies.texture.cells import PERIOD_FITS, UNITS, read_cell
+from lasersph.studies.texture.cells import PERIOD_FITS, UNITS
+from lasersph.studies.texture.dot_cells import read_any_cell
+from lasersph.studies.texture.dots import AnyTable, DotTable, table_of
 from lasersph.studies.texture.spot import NoTexture, refuse_common_melt, texture_maps
-from lasersph.studies.texture.table import FEWEST_CELLS, CellTable
+from lasersph.studies.texture.table import FEWEST_CELLS
 from lasersph.sweeps import CaseTemplate, SweepPlan, Table, build_plan
 from lasersph.sweeps.folder import RUNS, SweepFolder
 from lasersph.sweeps.points import Value
@@ -52,6 +54,8 @@ BELOW = 0.97
 heat: it melts earlier than the case by some percent."""
 BISECTIONS = 8
 PIXELS_A_PERIOD = 40
+HEIGHT_DECIMALS = 15
+"""Of heights in meters: a femtometer, so that maps of dots stay some megabytes."""
 DIGITS = 6
 """Of the fluences, as a user may write them in a plan."""
 
@@ -102,6 +106,11 @@ def plan_texture(
             f'time.pause is "{case.pause}", and a pulse finds the heat of those before: cells of '
             "one pulse begin cold; leave it out, with a laser.pulse.period after which all is solid"
         )
+    if moves and laser.beam.lateral_period_y is not None:
+        raise NoTexture(
+            "pulses that are moved make textures of lines; leave out laser.spot.shift, or write "
+            "two beams"
+        )
     if moves:  # a cell has one pulse, and the time after it that the last one has
         end = case.time.end - (pulses - 1) * float(laser.pulse.interval or 0.0)
         bare |= {"laser.pulse.count": 1, "time.end": f"{end:.9g} s"}
@@ -117,29 +126,37 @@ def plan_texture(
     return TexturePlan(case, plan, spot, period, pulses, shift)
 
 
-def period_of_lines(case: CaseContents) -> float:
-    """Period of the lines [m] that a case of one cell computes.
+def period_of_pattern(case: CaseContents) -> float:
+    """Period along x [m] of the lines or dots that a case of one cell computes.
 
     Raises:
         NoTexture: what it lacks for that.
     """
     beam = None if case.laser is None else case.laser.beam
-    # exactly one period of lines along x, of a surface that moves
+    # exactly one period along x, of dots along y as well, of a surface that moves
     period = None if beam is None else beam.lateral_period
     if beam is None or period is None:
         raise NoTexture("the case has no pattern of interfering beams to texture with")
-    if case.solver.dimensions != 2 or beam.lateral_period_y is not None:
-        raise NoTexture("a texture is of lines along y: two beams along x, and a case in 2-D")
+    period_y = beam.lateral_period_y
+    if case.solver.dimensions != (2 if period_y is None else 3):
+        raise NoTexture(
+            "a texture is of lines along y, of two beams along x in 2-D, or of dots, of three or "
+            f"four beams in 3-D; write solver.dimensions = {2 if period_y is None else 3}"
+        )
     if not case.surface_moves:
         raise NoTexture(
             'the surface of the case does not move; write solver.flow.surface = "moving"'
         )
     width = case.domain.width or 0.0
-    if abs(width - period) > PERIOD_FITS * period:
-        raise NoTexture(
-            f'a cell is one period wide: write domain.width = "{1e6 * period:.6g} um", not '
-            f"{1e6 * width:.6g} um"
-        )
+    sides = {"width": (width, period, "wide")}
+    if period_y is not None:
+        sides["breadth"] = (case.domain.breadth or width, period_y, "long along y")
+    for key, (side, wanted, word) in sides.items():
+        if abs(side - wanted) > PERIOD_FITS * wanted:
+            raise NoTexture(
+                f'a cell is one period {word}: write domain.{key} = "{1e6 * wanted:.6g} um", not '
+                f"{1e6 * side:.6g} um"
+            )
     return period
 
 
@@ -149,7 +166,7 @@ def spot_of(case: CaseContents) -> tuple[SpotFluence, float]:
     Raises:
         NoTexture: what a texture needs and the case does not have.
     """
-    period, laser = period_of_lines(case), case.laser
+    period, laser = period_of_pattern(case), case.laser
     if laser is None or laser.spot is None:
         raise NoTexture(
             'the case has no spot; write e.g. spot = { diameter = "50 um", definition = "1/e^2" } '
@@ -251,7 +268,7 @@ def link_runs(plan: SweepPlan, folder: Path, share: Sequence[Path]) -> int:
     return count
 
 
-def read_table(folder: str | PathLike[str], period: float) -> CellTable:
+def read_table(folder: str | PathLike[str], period: float) -> AnyTable:
     """The table of the complete cells in a folder of runs over the fluence.
 
     Raises:
@@ -262,13 +279,13 @@ def read_table(folder: str | PathLike[str], period: float) -> CellTable:
         raise OutputError(f"{folder} holds {len(rows)} complete cells, fewer than three")
     runs = [open_run(Path(folder) / RUNS / row.run) for row in rows]
     cells = [
-        (float(row.settings[KEY]), read_cell(run, period))
+        (float(row.settings[KEY]), read_any_cell(run, period))
         for row, run in zip(rows, runs, strict=True)
     ]
-    return CellTable.of(cells, period, float(runs[0].case["initial_temperature"]))
+    return table_of(cells, period, float(runs[0].case["initial_temperature"]))
 
 
-def answer(plan: TexturePlan, table: CellTable, maps: Maps, pixel: float) -> dict[str, Any]:
+def answer(plan: TexturePlan, table: AnyTable, maps: Maps, pixel: float) -> dict[str, Any]:
     """Content of texture.json, SI."""
     # error by leaving out each cell but those at the ends
     height = maps.fields["height"]
@@ -301,7 +318,8 @@ def answer(plan: TexturePlan, table: CellTable, maps: Maps, pixel: float) -> dic
             "key": KEY,
             "fluence_J_m2": table.fluence.tolist(),
             "x_m": table.x.tolist(),
-            "height_m": table.values["height"].tolist(),
+            "height_m": np.round(table.values["height"], HEIGHT_DECIMALS).tolist(),
+            **({"y_m": table.y.tolist()} if isinstance(table, DotTable) else {}),
         },
         "interpolation_error": interpolation,
         "areal_parameters": areal_parameters(height, pixel, pixel)._asdict(),
@@ -314,7 +332,7 @@ def answer(plan: TexturePlan, table: CellTable, maps: Maps, pixel: float) -> dic
     }
 
 
-def notes_of(plan: TexturePlan, table: CellTable) -> list[str]:
+def notes_of(plan: TexturePlan, table: AnyTable) -> list[str]:
     """Lines that a user should know of the texture."""
     found = []
     if np.any(table.values["melt_depth"][0] > 0.0):

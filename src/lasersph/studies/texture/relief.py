@@ -16,7 +16,9 @@ from lasersph.output.height_map import HeightMap
 from lasersph.output.image_file import read_maps
 from lasersph.output.reader import read_json
 from lasersph.output.symmetry import is_axisymmetric
-from lasersph.studies.texture.cells import Cell, read_cell
+from lasersph.studies.texture.cells import Cell
+from lasersph.studies.texture.dot_cells import read_any_cell
+from lasersph.studies.texture.dots import AnyTable, DotTable
 from lasersph.studies.texture.measurement import refuse_odd
 from lasersph.studies.texture.round_relief import RoundRelief, round_relief
 from lasersph.studies.texture.table import CellTable
@@ -35,7 +37,7 @@ class Relief:
     """
 
     name: str
-    table: CellTable
+    table: AnyTable
     x: Array
     y: Array
     fluence: Array
@@ -47,6 +49,11 @@ class Relief:
     def period(self) -> float:
         """Of the lines [m]."""
         return self.table.period
+
+    @property
+    def period_y(self) -> float | None:
+        """Of dots along y [m]; None of lines."""
+        return self.table.period_y if isinstance(self.table, DotTable) else None
 
     @property
     def tells_fluence(self) -> bool:
@@ -80,12 +87,11 @@ class Relief:
     def at(self, x: Array, y: Array, factor: float) -> Array:
         """Heights at places [m], any shape, with a factor on the fluence."""
         if not self.is_spot:
-            # lines that repeat: any fluence has the same cell
-            height = self.table.values["height"][0]
-            return np.interp(x, self.table.x, height, period=self.table.period)
-        # a spot: the cell of the local fluence, from edge to edge of its melt
+            # a cell that repeats: any fluence has the same one
+            return self.table.repeating("height", x, y)
+        # a spot: the cell of the local fluence, of lines from edge to edge of their melt
         local = linear_map(self.x, self.y, factor * self.fluence)
-        return self.table.lines["height"].across(local, x, y)
+        return self.table.in_spot("height", local, x, y)
 
     def sampled(self, factor: float, step: float) -> Callable[[Array, Array], Array]:
         """Heights that are linear between places about a step [m] apart, for many looks."""
@@ -124,8 +130,12 @@ def read_relief(folder: Path) -> Relief | RoundRelief:
             raise OutputError(f"{folder} has pulses that are moved: compare one spot")
         cells = content["cells"]
         fluence, x = np.array(cells["fluence_J_m2"]), np.array(cells["x_m"])
-        values = {"height": np.array(cells["height_m"])}
-        table = CellTable(fluence, x, content["period_m"], values, 0.0)
+        values, period = {"height": np.array(cells["height_m"])}, content["period_m"]
+        table = (
+            DotTable(fluence, x, np.array(cells["y_m"]), period, values, 0.0)
+            if "y_m" in cells
+            else CellTable(fluence, x, period, values, 0.0)
+        )
         error = content["interpolation_error"]["height"]["rms"]
         return Relief(folder.name, table, maps.x, maps.y, maps.fields["fluence"], error)
     run = open_run(folder)
@@ -139,12 +149,17 @@ def read_relief(folder: Path) -> Relief | RoundRelief:
     period = InterferenceBeam.model_validate(beam).lateral_period if is_pattern else None
     if period is None:
         raise OutputError(f"{folder} has no pattern with a period, and is no texture")
-    return repeating_relief(read_cell(run, period), period, folder.name)
+    return repeating_relief(read_any_cell(run, period), period, folder.name)
 
 
 @lru_cache(maxsize=256)
 def repeating_relief(cell: Cell, period: float, name: str = "") -> Relief:
     """The relief of a cell that repeats, the same one for the same cell."""
-    values = {"height": np.tile(cell.values["height"], (3, 1))}  # the same at any fluence
-    table = CellTable(np.array([0.5, 1.0, 2.0]), cell.x, period, values, 0.0)
+    values = {"height": np.array(3 * [cell.values["height"]])}  # the same at any fluence
+    fluence = np.array([0.5, 1.0, 2.0])
+    table = (
+        CellTable(fluence, cell.x, period, values, 0.0)
+        if cell.y is None
+        else DotTable(fluence, cell.x, cell.y, period, values, 0.0)
+    )
     return Relief(name, table, np.zeros(1), np.zeros(1), np.ones((1, 1)))

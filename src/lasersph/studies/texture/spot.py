@@ -1,6 +1,6 @@
 """The maps of a spot: at each pixel the value of a cell of the local fluence at the local phase.
 
-    z(x, y) = Z(F(x, y), x mod period)
+    z(x, y) = Z(F(x, y), x mod period),   of dots Z(F(x, y), x mod Lx, y mod Ly)
 
 F is the local fluence, mean over a period, and Z the table of cells; heights of a line and depths
 of its melt lie between the edges of the melt, see `lines`. A cell knows neither heat nor melt that
@@ -22,7 +22,7 @@ from lasersph.input import format_quantity
 from lasersph.lasers import SpotFluence
 from lasersph.output.image_file import Maps
 from lasersph.studies.texture.cells import UNITS
-from lasersph.studies.texture.table import BETWEEN_EDGES, CellTable
+from lasersph.studies.texture.dots import AnyTable
 
 Array = NDArray[np.float64]
 MOST_PIXELS = 16_000_000
@@ -42,14 +42,15 @@ class NoTexture(ValueError):
     """The texture cannot be told; the text says why, in one line."""
 
 
-def half_sizes(spot: SpotFluence, table: CellTable) -> tuple[float, float]:
+def half_sizes(spot: SpotFluence, table: AnyTable) -> tuple[float, float]:
     """Half width and height of the area where cells change the surface, and a period more [m].
 
     Raises:
         NoTexture: the fluence at the center melts nothing.
     """
     # the brightest cell that changes nothing bounds the area by its fluence
-    touched = [np.any(table.values[name] != 0.0, axis=1) for name in ("height", "melt_depth")]
+    changes = (table.values[name] != 0.0 for name in ("height", "melt_depth"))
+    touched = [np.any(one.reshape(table.fluence.size, -1), axis=1) for one in changes]
     changed = np.flatnonzero(touched[0] | touched[1])
     if changed.size == 0:
         raise NoTexture(
@@ -105,7 +106,7 @@ def common_melt(number: int, x: float, y: float, apart: float, pulses: int) -> N
 
 
 def texture_maps(
-    spot: SpotFluence, table: CellTable, pixel: float, *, pulses: int = 1, shift: float = 0.0
+    spot: SpotFluence, table: AnyTable, pixel: float, *, pulses: int = 1, shift: float = 0.0
 ) -> Maps:
     """Height, melt depth, largest temperature and speed, and fluence over the spot.
 
@@ -136,12 +137,7 @@ def texture_maps(
     for number in range(pulses):
         here = x - number * shift
         local = spot.at(here[None, :], y[:, None])
-        found = {
-            name: table.lines[name].across(spot.at, here[None, :], y[:, None])
-            if name in BETWEEN_EDGES
-            else table.at(name, local, here[None, :])
-            for name in UNITS
-        }
+        found = {name: table.in_spot(name, spot.at, here[None, :], y[:, None]) for name in UNITS}
         # a place that two pulses melt is none that a cell of one pulse knows
         melts = (found["melt_depth"] > 0.0) | (found["height"] != 0.0)
         if np.any(melts & has_melted):

@@ -11,6 +11,7 @@ predicting it from the others, which lie twice as far apart there: it is an uppe
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -48,12 +49,7 @@ class CellTable:
 
     def __post_init__(self) -> None:
         """Raises ValueError for fewer than three cells, or fluences that do not rise."""
-        if (
-            self.fluence.size < FEWEST_CELLS
-            or np.any(np.diff(self.fluence) <= 0.0)
-            or self.fluence[0] <= 0.0
-        ):
-            raise ValueError("a table needs three cells or more whose fluences rise from above 0")
+        refuse_odd_fluences(self.fluence)
 
     @classmethod
     def of(
@@ -85,10 +81,7 @@ class CellTable:
 
         wanted = np.asarray(fluence, float)
         highest = float(self.fluence[-1])
-        if np.any(wanted > highest * (1.0 + ROUNDING)):
-            raise ValueError(
-                f"a fluence of {wanted.max():g} J/m^2 exceeds that of all cells, {highest:g} J/m^2"
-            )
+        refuse_brighter(wanted, self.fluence)
         if name in BETWEEN_EDGES:
             return self.lines[name].at(wanted[:, None], self.x[None, :])
         # monotone cubic over fluence at each place; linear to the dark below the lowest cell
@@ -136,6 +129,18 @@ class CellTable:
         column = ((places - self.x[0]) % self.period) / step
         return map_coordinates(values[name], [row, column], order=1, mode="nearest")
 
+    def in_spot(
+        self, name: str, fluence: Callable[[Array, Array], Array], x: Array, y: Array
+    ) -> Array:
+        """Values in a spot of a local fluence [J/m^2] at places x, y [m], any shape."""
+        if name in BETWEEN_EDGES:
+            return self.lines[name].across(fluence, x, y)
+        return self.at(name, fluence(x, y), x)
+
+    def repeating(self, name: str, x: Array, y: Array) -> Array:
+        """Values of the darkest cell at places [m], any shape; lines are the same at any y."""
+        return np.interp(x, self.x, self.values[name][0], period=self.period) + 0.0 * y
+
     def leave_one_out(self, name: str) -> Array:
         """Largest error over the period at each cell but the two at the ends (cells - 2,), where it
         is predicted from the others."""
@@ -148,3 +153,21 @@ class CellTable:
             for k in inner
         ]
         return np.array([one.max() for one in errors])
+
+
+def refuse_odd_fluences(fluence: Array) -> None:
+    """Refuse fewer than three cells, or fluences (cells,) that do not rise. Raises ValueError."""
+    if fluence.size < FEWEST_CELLS or np.any(np.diff(fluence) <= 0.0) or fluence[0] <= 0.0:
+        raise ValueError("a table needs three cells or more whose fluences rise from above 0")
+
+
+def refuse_brighter(wanted: Array, fluence: Array) -> None:
+    """Refuse fluences of any shape above that of the highest of some cells (cells,) [J/m^2].
+
+    Raises ValueError.
+    """
+    highest = float(fluence[-1])
+    if np.any(wanted > highest * (1.0 + ROUNDING)):
+        raise ValueError(
+            f"a fluence of {wanted.max():g} J/m^2 exceeds that of all cells, {highest:g} J/m^2"
+        )

@@ -1,0 +1,69 @@
+"""Maps of a made-up dot: the whole period, its units, its sections; none of a line."""
+
+from __future__ import annotations
+
+import re
+
+import numpy as np
+import pytest
+import synthetic_flow
+from synthetic_dot import DEPTH, FASTEST, PERIOD, make_dot_run
+
+from lasersph.output import open_run
+from lasersph.plots.relief import has_lines, relief_map, relief_profiles, topography_history
+from lasersph.plots.surface_maps import (
+    surface_flow_map,
+    surface_height_map,
+    surface_sections,
+    surface_temperature_map,
+)
+
+MAPS = (surface_height_map, surface_flow_map, surface_temperature_map)
+
+
+@pytest.fixture(scope="module")
+def dot(tmp_path_factory):
+    """A quarter of a period."""
+    return open_run(make_dot_run(tmp_path_factory.mktemp("maps") / "run", extent="quarter"))
+
+
+@pytest.mark.parametrize("draw", MAPS)
+def test_maps_show_the_whole_period(dot, draw):
+    """Both axes from -2.5 um to 2.5 um with units, a title with the time, and a color bar."""
+    figure = draw(dot)
+    axes = figure.axes[0]
+    assert axes.get_xlim() == pytest.approx((-2.5, 2.5)) == axes.get_ylim()
+    texts = [text for one in figure.axes for text in (one.get_xlabel(), one.get_ylabel())]
+    assert all(re.search(r"\[.+\]$", text) for text in texts if text)
+    assert "t = " in axes.get_title()
+
+
+def test_values_of_maps(dot):
+    """Height of -60 nm in the middle, 0 in the speed there, 2700 K, largest speed 2 m/s."""
+    height, speed, temperature = (
+        np.asarray(draw(dot).axes[0].images[0].get_array(), float) for draw in MAPS
+    )
+    assert height[20, 20] == pytest.approx(-1e9 * DEPTH, rel=0.02)
+    assert speed[20, 20] < 0.15 * FASTEST and np.max(speed) == pytest.approx(FASTEST, rel=0.02)
+    assert temperature[20, 20] == pytest.approx(2700.0, rel=0.01)
+    assert height == pytest.approx(height[::-1]) and height == pytest.approx(height.T)
+
+
+def test_sections(dot):
+    """Along x and y cosines, along the diagonal their square, over its own length."""
+    lines = surface_sections(dot).axes[0].lines[:3]
+    k = 2e-6 * np.pi / PERIOD
+    for line, expected in zip(
+        lines, (np.cos, np.cos, lambda q: np.cos(q / 2**0.5) ** 2), strict=True
+    ):
+        place, height = line.get_data()
+        assert height == pytest.approx(-1e9 * DEPTH * expected(k * place), abs=1.0)
+
+
+def test_lines_have_no_maps_and_maps_no_lines(dot, tmp_path):
+    """Each kind of surface has figures of its own; both have a history."""
+    assert relief_profiles(dot) is None and relief_map(dot) is None and not has_lines(dot)
+    labels = [text.get_text() for text in topography_history(dot).axes[1].get_legend().get_texts()]
+    assert labels == ["Sa", "Sq"]
+    flat = open_run(synthetic_flow.make_pool_run(tmp_path / "flat"))
+    assert not any(draw(flat) for draw in (*MAPS, surface_sections))
