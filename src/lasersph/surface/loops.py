@@ -152,20 +152,13 @@ def surface_values(
     low = node_before(place, nodes)
     s, b = linear(place, low, nodes, shear), linear(place, low, nodes, strain_rate)
     # vector of the tangent plane: s t of a line, s_z = -(s_x n_x + s_y n_y)/n_z of a grid
+    p, T = linear(place, low, nodes, p_b), linear(place, low, nodes, T_line)
+    slope = linear(place, low, nodes, gradient)
     if len(x) == 2:
-        along = s[0]
-        jump = 2.0 * distance * vector(along * n[1] - b * n[0], -along * n[0] - b * n[1])
-    else:
-        rise = -(s[0] * n[0] + s[1] * n[1]) / n[2]
-        along = sqrt(s[0] * s[0] + s[1] * s[1] + rise * rise)
-        jump = 2.0 * distance * (vector(s[0], s[1], rise) - b * n)
-    return (
-        jump,
-        2.0 * distance * along,
-        linear(place, low, nodes, p_b),
-        linear(place, low, nodes, T_line),
-        linear(place, low, nodes, gradient),
-    )
+        jump = 2.0 * distance * vector(s[0] * n[1] - b * n[0], -s[0] * n[0] - b * n[1])
+        return jump, 2.0 * distance * s[0], p, T, slope
+    along = 2.0 * distance * vector(s[0], s[1], -(s[0] * n[0] + s[1] * n[1]) / n[2])
+    return along - 2.0 * distance * b * n, along, p, T, slope
 
 
 def column_place(x, start, inverse_width, columns):

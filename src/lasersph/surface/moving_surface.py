@@ -114,7 +114,10 @@ class MovingSurface(Surface):
         self.liquid, self.forcing = liquid, forcing
         self.stress_law = SurfaceStress(liquid, forcing, has_stress=has_stress)
         # a ghost's jump is a vector, and so is that which passes on the whole stress
-        self.ghost_velocity_jump, self.gradient = backend.zeros(count), backend.zeros(count)
+        self.gradient = backend.zeros(count)
+        # its tangential part: along the tangent of a line, or a vector
+        if dimension == 2:
+            self.ghost_velocity_jump = backend.zeros(count)
         self.velocity_jump = backend.zeros((dimension, count))
         self.stress_jump = backend.zeros((dimension, count))
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from lasersph.compute.backend import Backend
 from lasersph.observers import Observers, flow_observers
+from lasersph.observers.area_relief import AreaRelief
 from lasersph.observers.relief import WHOLE, Relief
 from lasersph.observers.topography import Topography
 from lasersph.observers.view import View
@@ -22,6 +23,7 @@ from lasersph.solvers.conduction.settings import ConductionSettings
 from lasersph.solvers.heat_settings import HeatSettings
 from lasersph.solvers.melt_pool.settings import MeltPoolSettings
 from lasersph.solvers.melt_pool.solver import MeltPool
+from lasersph.surface.height_field import HeightField
 from lasersph.surface.moving_surface import MovingSurface
 
 FLOW_PRODUCTS = {"pool": 25.0, "box": 70.0}
@@ -67,13 +69,7 @@ class MeltPoolRecipe(HeatRecipe[MeltPoolSettings, MeltPool]):
         if flow.box:
             fields["melt_fraction"] = np.ones(solver.particle_count)
         if isinstance(surface := solver.domain.surface, MovingSurface):
-            line = surface.line
-            fields["relief"] = Relief(
-                line.centers(),
-                line.height.copy(),
-                line.ends[0][0],
-                is_section=self.case.geometry.is_axisymmetric,
-            )
+            fields["relief"] = self._relief(surface.line)
             fields["volume"] = fetch(solver.flow.volume)
         return View(**fields, **self.evaporated(solver))
 
@@ -101,13 +97,25 @@ class MeltPoolRecipe(HeatRecipe[MeltPoolSettings, MeltPool]):
             faces.surface_mass_flux_wave,
             self.case.initial_surface,
         )
-        # The first period that anything imposes on the surface.
-        period = next((wave.period for wave in waves if wave is not None and wave.period), None)
-        (x,) = self.case.domain.lateral(self.case.geometry)
-        halves = 0.0 if period is None else 2.0 * (x[1] - x[0]) / period
-        is_whole = halves > 0.5 and abs(halves - round(halves)) <= WHOLE * halves
-        is_section = self.case.geometry.is_axisymmetric
-        return Topography(period if is_whole else None, is_section=is_section)
+        # The first wave that anything imposes on the surface.
+        wave = next((wave for wave in waves if wave is not None and wave.period), None)
+        periods = (None, None) if wave is None else (wave.period, wave.period_y)
+        sides = self.case.domain.lateral(self.case.geometry)
+        fits = [_holds_halves(*side, period) for side, period in zip(sides, periods, strict=False)]
+        return Topography(
+            *(period if all(fits) else None for period in periods),
+            dimensions=self.settings.dimensions,
+            is_section=self.case.geometry.is_axisymmetric,
+        )
+
+    def _relief(self, line: HeightField) -> Relief | AreaRelief:
+        """Heights of a surface that moves, as observers see them."""
+        height = line.height.copy()
+        if len(line.shape) == 1:
+            is_section = self.case.geometry.is_axisymmetric
+            return Relief(line.centers(), height, line.ends[0][0], is_section=is_section)
+        (x, _), (y, _) = line.ends
+        return AreaRelief(line.centers(), line.centers(1), height, (x, y))
 
     def products_of(self, stage: str) -> float:
         """Cost of a step, see `RunStage`."""
@@ -139,3 +147,9 @@ class MeltPoolRecipe(HeatRecipe[MeltPoolSettings, MeltPool]):
         if found:
             found["numbers"] |= melt_numbers(self.case, self.settings, found["scales"]["length_m"])
         return found
+
+
+def _holds_halves(low: float, high: float, period: float | None) -> bool:
+    """Whether a side holds whole half periods, as it does where there is none."""
+    halves = 1.0 if period is None else 2.0 * (high - low) / period
+    return halves > 0.5 and abs(halves - round(halves)) <= WHOLE * halves
