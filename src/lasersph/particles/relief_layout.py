@@ -18,6 +18,7 @@ beside it [vanLeer1974]: no new extremes.
 
 from __future__ import annotations
 
+from math import prod
 from typing import NamedTuple
 
 import numpy as np
@@ -29,30 +30,32 @@ Array = NDArray[np.float64]
 
 
 class ReliefLayout(NamedTuple):
-    """Particles of the finest layers, which come first: position (2, n) [m], volume (n,) [m^2],
-    smallest and largest height of their cells [m], column (n,) of each and its row from the top."""
+    """Particles of the finest layers, which come first: position (d, n) [m], volume (n,) [m^d],
+    smallest and largest height of their cells [m], column (n,) of each and its row from the top,
+    numbers of the columns along each axis."""
 
     position: Array
     volume: Array
     heights: tuple[float, float]
     column: NDArray[np.intp]
     row: NDArray[np.intp]
+    shape: tuple[int, ...]
 
 
 def lay_below(layers: Layers, height: Array, *, keep_columns: bool = False) -> ReliefLayout:
-    """Particles of the finest layers of a 2-D domain below a relief.
+    """Particles of the finest layers of a domain below a relief.
 
     Args:
-        height: (columns,) of the surface over each column of the first layer [m]; its lowest point
-            lies above the lower end of these layers. keep_columns: whether no particle changes its
-            column.
+        height: of the surface over each column of the first layer [m], in the shape of their grid;
+            its lowest point lies above the lower end of these layers. keep_columns: whether no
+            particle changes its column.
 
     Raises:
         ValueError: a column would hold no particle.
     """
     fine = int(np.count_nonzero(layers.thickness <= layers.spacing * (1.0 + 1e-9)))
-    columns, depth = height.size, layers.fine_depth
-    thickness = depth + height
+    columns, depth, shape = height.size, layers.fine_depth, height.shape
+    thickness = depth + height.ravel()
     # largest remainders: whole cells, the last ones where most of a cell was cut off
     wanted = (
         np.full(columns, float(fine)) if keep_columns else thickness / np.mean(thickness) * fine
@@ -67,12 +70,16 @@ def lay_below(layers: Layers, height: Array, *, keep_columns: bool = False) -> R
     # numbers rise from the uppermost row down, as those of the lattice do
     order = np.lexsort((column, -row))
     column, row = column[order], row[order]
-    size, (low, high) = thickness / count, layers.bounds[0]
-    width = (high - low) / columns
-    x, z = low + (column + 0.5) * width, (row + 0.5) * size[column] - depth
-    position = np.array([x, z], dtype=np.float64)
-    heights = float(size.min()), float(size.max())
-    return ReliefLayout(position, width * size[column], heights, column, count[column] - 1 - row)
+    size, area, lateral = thickness / count, 1.0, []
+    for (low, high), n, place in zip(
+        layers.bounds, shape, np.unravel_index(column, shape), strict=True
+    ):
+        width = (high - low) / n
+        lateral.append(low + (place + 0.5) * width)
+        area = area * width
+    position = np.array([*lateral, (row + 0.5) * size[column] - depth], dtype=np.float64)
+    heights, row = (float(size.min()), float(size.max())), count[column] - 1 - row
+    return ReliefLayout(position, area * size[column], heights, column, row, shape)
 
 
 def carry_over(
@@ -82,16 +89,16 @@ def carry_over(
     (k, n) of fields over what each holds.
 
     Args:
-        position, volume, fields: (2, n), (n,), (k, n) of the particles of the finest layers before.
+        position, volume, fields: (d, n), (n,), (k, n) of the particles of the finest layers before.
 
     Raises:
         ValueError: a column holds no particle.
     """
-    low, high = layers.bounds[0]
-    columns = int(layout.column.max()) + 1
-    place = np.floor((position[0] - low) * columns / (high - low)).astype(np.intp)
-    place = np.clip(place, 0, columns - 1)
-    members = columns_alike(place, columns, np.lexsort((-position[1], place)))
+    shape, columns, places = layout.shape, prod(layout.shape), []
+    for x, (low, high), n in zip(position[:-1], layers.bounds, shape, strict=True):
+        places.append(np.clip(np.floor((x - low) * n / (high - low)).astype(np.intp), 0, n - 1))
+    place = np.ravel_multi_index(tuple(places), shape)
+    members = columns_alike(place, columns, np.lexsort((-position[-1], place)))
     if members[0][1].shape[1] < 1:
         raise ValueError("a column holds no particle")
     # columns become even levels, from the top
@@ -106,14 +113,17 @@ def carry_over(
     # what a column holds too much goes to the next
     new_volume = layout.volume * (volume.sum() / layout.volume.sum())
 
-    # volume that passes each side, toward larger x where positive, with the means upwind of it
+    # volume that passes each side, with the means upwind of it
     wanted = np.bincount(layout.column, new_volume, columns)
-    passed = np.cumsum(held - wanted)[:-1]
-    carried = passed * np.where(passed > 0.0, means[:, :, :-1], means[:, :, 1:])
-    content = held * means
-    content[:, :, :-1] -= carried
-    content[:, :, 1:] += carried
-    means = content / wanted
+    grid = means.reshape(*means.shape[:2], *shape)
+    content = held.reshape(shape) * grid
+    for axis, passed in enumerate(passed_on((held - wanted).reshape(shape))):
+        values, change = (np.moveaxis(one, axis + 2, -1) for one in (grid, content))
+        passed = np.moveaxis(passed, axis, -1)
+        carried = passed * np.where(passed > 0.0, values[..., :-1], values[..., 1:])
+        change[..., :-1] -= carried
+        change[..., 1:] += carried
+    means = content.reshape(means.shape) / wanted
     # levels become cells
     found = np.empty_like(fields)
     for alike, rows in columns_alike(
@@ -123,6 +133,24 @@ def carry_over(
         values = resample(levels[None], means[:, :, alike].swapaxes(1, 2), cells)
         found[:, rows] = np.take_along_axis(values, layout.row[rows][None], 2)
     return new_volume, found
+
+
+def passed_on(excess: Array) -> list[Array]:
+    """What passes the sides of columns along each axis, toward larger places where positive, so
+    that nothing of their excess is left; none through the ends.
+
+    Along a line that is the sum of the excess so far. On a grid it is the gradient of a potential,
+    the least that does it, by cosine transforms.
+    """
+    if excess.ndim == 1:
+        return [np.cumsum(excess)[:-1]]
+    from scipy.fft import dctn, idctn  # few runs have a grid of columns
+
+    waves = [2.0 * np.cos(np.pi * np.arange(n) / n) - 2.0 for n in excess.shape]
+    eigenvalue = np.add.outer(*waves)
+    eigenvalue[0, 0] = 1.0
+    potential = idctn(dctn(excess) / eigenvalue)
+    return [np.diff(potential, axis=axis) for axis in range(excess.ndim)]
 
 
 def columns_alike(

@@ -90,3 +90,31 @@ def test_particles_carry_what_they_hold(layers):
     wanted = 1e6 * np.exp(-depth / (1.0 - lost[np.argsort(x)].mean() / 1e-6) / 3e-7)
     assert np.abs(new_h - wanted).max() < 0.1e6
     assert np.abs(new_u - np.sin(np.pi * layout.position[0] / 1e-6)).max() < 0.06
+
+
+def test_relief_over_x_and_y():
+    """In 3-D: the lattice below a plane; below a dot the volume is what lies below it, and what
+    particles carry stays in sum, a constant everywhere the same."""
+    domain = Domain.model_validate({"width": 1e-6, "breadth": 1.2e-6, "depth": 4e-6})
+    lattice = Lattice.model_validate({"spacing": 1e-7, "arrangement": "graded"})
+    layers = stack(domain, lattice, Geometry(3), 5e-7)
+    sides = {"surface": "mirror", "bottom": "mirror", "sides": "mirror"}
+    shape = tuple(int(n) for n in layers.columns[:, 0])
+    flat = lay_below(layers, np.zeros(shape))
+    count = flat.volume.size
+    assert np.abs(flat.position - fill(layers, **sides).position[:, :count]).max() < 1e-18
+
+    x, y = (np.linspace(-1.0, 1.0, 2 * n + 1)[1::2] for n in shape)
+    height = 8e-8 * np.cos(np.pi * x)[:, None] * np.cos(np.pi * y) - 2e-8
+    layout = lay_below(layers, height)
+    area = 1.2e-12 / height.size
+    below = (layers.fine_depth + height).sum() * area
+    assert layout.volume.sum() == pytest.approx(below, rel=1e-14, abs=0.0)
+    fields = np.array([np.full(count, 3.0), flat.position[0] * 1e6, flat.position[1] * 1e6])
+    volume, found = carry_over(layers, layout, flat.position, flat.volume, fields)
+    assert volume.sum() == pytest.approx(flat.volume.sum(), rel=1e-14, abs=0.0)
+    assert found[0] == pytest.approx(3.0, rel=1e-12)
+    scale = np.abs(fields) @ flat.volume
+    assert found @ volume == pytest.approx(fields @ flat.volume, abs=1e-12 * scale.max())
+    # what was passed on has hardly moved
+    assert np.abs(found[1] - 1e6 * layout.position[0]).max() < 0.1
