@@ -52,7 +52,8 @@ class GhostRules:
             varies along the face, as `varies` (w,) says. flux: (w,) into the body [W/m^2]. normal:
             (d, w) outward, plane: (w,) place of the face along it [m]. heat_face: (w,) number
             of the face whose heat condition holds, see `FaceConditions.number_of`. walls: (d, w)
-            those across each axis that lie between for the flow. Else 0.
+            those across each axis that lie between for the flow. sticks: (d, w) 1 where no liquid
+            slips along it. Else 0.
     """
 
     sign: Array
@@ -67,6 +68,7 @@ class GhostRules:
     plane: Array
     heat_face: Array
     walls: Array
+    sticks: Array
 
     @property
     def velocity(self) -> dict[str, Array]:
@@ -85,8 +87,9 @@ class GhostRules:
 
     @property
     def has_one_wall(self) -> NDArray[np.bool_]:
-        """(w,) whether one face lies between for the flow, and no edge or corner."""
-        return np.count_nonzero(self.walls, axis=0) == 1
+        """(w,) whether one wall along which no liquid slips lies between, and no edge of two; beside
+        it planes of symmetry may."""
+        return np.count_nonzero(self.sticks, axis=0) == 1
 
 
 class Crossing(NamedTuple):
@@ -179,10 +182,13 @@ class FaceConditions:
             varies=np.zeros(shape[1], bool),
             normal=np.zeros(shape),
             walls=np.zeros(shape),
+            sticks=np.zeros(shape),
             **{name: np.zeros(shape[1]) for name in numbers},
         )
         for one in self._crossings(ghost_types):
             rules.walls[one.axis, one.types] = self.number_of(one.face)
+            if self.flow_kind(one.face) in WALLS:
+                rules.sticks[one.axis, one.types] = 1.0
             if self.flow_kind(one.face) in FREE:
                 rules.stressed[one.types] = 1.0
             self._set_heat(rules, one)

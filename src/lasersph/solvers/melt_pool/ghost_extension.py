@@ -63,14 +63,15 @@ class GhostExtension:
         self._mirrored_velocity = self._tables(rules.mirrored_velocity)
         self._velocity_change = self._tables(rules.velocity_change)
 
-        # walls on which no liquid slips: components that they turn around, normal and place
-        is_wall = (rules.walls > 0.0) & rules.has_one_wall & (types.crosses_surface == 0.0)
-        turned = (~is_wall & is_wall.any(axis=0) & (rules.factor < 0.0)).astype(float)
-        self.has_still_walls = bool(turned.any())
+        # walls on which no liquid slips: components along them, those that planes of symmetry beside
+        # them turn around as they do, normal and place
+        is_wall = (rules.sticks > 0.0) & rules.has_one_wall & (types.crosses_surface == 0.0)
+        along_wall = np.where(~is_wall & is_wall.any(axis=0), -rules.factor, 0.0)
+        self.has_still_walls = bool(along_wall.any())
         # S x + o = x lies on the plane of the wall: n . x = o/2
         normal = is_wall.astype(float)
         plane = 0.5 * np.sum(normal * types.offset, axis=0)
-        self._still_walls = self._tables({"along": turned, "normal": normal, "plane": plane})
+        self._still_walls = self._tables({"along": along_wall, "normal": normal, "plane": plane})
 
     def _tables(self, values: Mapping[str, np.ndarray]) -> Constants:
         """Tables by the type of a ghost, for loops."""

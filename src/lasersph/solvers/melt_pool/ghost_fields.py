@@ -65,7 +65,8 @@ def velocity_at_wall(source, ghost_type, place, v, m, a, along, normal, plane, s
 
     Args:
         place: of the ghost [m]. m: relative viscosity of the source [1], nu: what that counts
-            from [m^2/s]. a: grad p/rho [m/s^2]. along: 1 for the components along a wall. normal,
+            from [m^2/s]. a: grad p/rho [m/s^2]. along: 1 for the components along a wall, -1 for
+            those that a plane of symmetry beside it turns around. normal,
             plane: of that, and its place along the normal [m]. step: [s].
     """
     d = dot(place, normal[ghost_type]) - plane[ghost_type]
