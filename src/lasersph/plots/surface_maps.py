@@ -148,8 +148,8 @@ def surface_temperature_map(run: RunOrFolder) -> Figure | None:
     )
     # Lines at the corners of the melting range, where the surface has them.
     material = run.summary.get("material", {}) if run.is_complete else {}
-    levels = sorted({material.get("solidus_K"), material.get("liquidus_K")} - {None})
-    levels = [one for one in levels if np.min(found.z) < one < np.max(found.z)]
+    corners = {float(material[key]) for key in ("solidus_K", "liquidus_K") if material.get(key)}
+    levels = sorted(one for one in corners if np.min(found.z) < one < np.max(found.z))
     if levels:
         x, y = found.x * unit.factor, found.y * unit.factor
         lines = axes.contour(x, y, found.z, levels=levels, colors="w", linewidths=0.9)
