@@ -124,7 +124,9 @@ class DotTable:
                 places, (self.x, self.y), (self.period, self.period_y), strict=True
             )
         ]
-        return map_coordinates(self._levels[name], [level, *axes], order=1, mode="nearest")
+        coordinates = np.reshape([level, *axes], (3, -1))
+        found = map_coordinates(self._levels[name], coordinates, order=1, mode="nearest")
+        return found.reshape(wanted.shape)
 
     def in_spot(
         self, name: str, fluence: Callable[[Array, Array], Array], x: ArrayLike, y: ArrayLike
