@@ -114,7 +114,9 @@ def check_snapshots(run: Run) -> None:
     if run.snapshots.dimension == 3 and (has_ablation(run) or has_maps(run)):
         return
     if run.snapshots.dimension != 2:
-        raise OutputError(f"{run.path} is in 3-D and no surface of it moved: there is none to show")
+        raise OutputError(
+            f"{run.path} is no plane run: only those and surfaces that move in 3-D are animated"
+        )
 
 
 def frames(run: Run) -> Iterator[Figure]:
