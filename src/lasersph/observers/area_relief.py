@@ -8,7 +8,7 @@ from typing import Literal
 import numpy as np
 
 from lasersph.observers.areal_parameters import ArealParameters, areal_parameters
-from lasersph.observers.relief import WHOLE, refuse_parts, value_at_zero
+from lasersph.observers.even_places import WHOLE, refuse_parts, value_at_zero
 
 Beyond = Literal["mirror", "periodic", "pinned"]
 PADDING: dict[Beyond, Literal["symmetric", "wrap", "edge"]] = {

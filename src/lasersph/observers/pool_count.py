@@ -85,7 +85,9 @@ def count_pools(
     """
     from scipy.ndimage import label
 
-    names, count = label(is_molten)
+    names = np.zeros(is_molten.shape, np.int32)
+    label(is_molten, output=names)
+    count = int(np.max(names))
     # parts that are one across a side that repeats: a graph of their numbers
     same = np.arange(count + 1)
     for axis in np.flatnonzero(periodic):

@@ -91,13 +91,16 @@ def at_columns(relief: Relief | AreaRelief, places: np.ndarray, values: np.ndarr
     for corner in np.ndindex(*(2,) * len(sides)):
         chosen = [sides[k][end] for k, end in enumerate(corner)]
         column = tuple(number for number, _ in chosen)
-        part = np.prod([share for _, share in chosen], axis=0)
+        part = np.ones(places.shape[1])
+        for _, share in chosen:
+            part = part * share
         np.add.at(weight, column, part)
-        for one, of_particles in zip(total, values, strict=True):
-            np.add.at(one, column, part * of_particles)
+        for k in range(values.shape[0]):
+            np.add.at(total, (k, *column), part * values[k])
 
     # columns that no particle is near
     known = weight > 0.0
     mean = total / np.where(known, weight, 1.0)
-    nearest = distance_transform_edt(~known, return_distances=False, return_indices=True)
+    nearest = np.zeros((len(shape), *shape), np.int32)
+    distance_transform_edt(~known, return_distances=False, return_indices=True, indices=nearest)
     return mean[(slice(None), *nearest)].reshape(values.shape[0], -1)

@@ -37,9 +37,10 @@ from typing import NamedTuple
 import numpy as np
 
 from lasersph.observers.area_relief import AreaRelief
+from lasersph.observers.even_places import refuse_parts
 from lasersph.observers.observer import Observer, Row
 from lasersph.observers.quantity import Quantity
-from lasersph.observers.relief import Relief, refuse_parts
+from lasersph.observers.relief import Relief
 from lasersph.observers.view import View
 
 SHALLOW = 0.05

@@ -26,8 +26,9 @@ def export(
     at: float | str | None = None,
     revolve: bool = False,
 ) -> Path:
-    """Write the surface of a crater or a relief: crater.csv, surface-profile.csv, surface-map.csv
-    (in 3-D), or height.csv.
+    """Write the surface of a crater or a relief into the folder of the run.
+
+    crater.csv, surface-profile.csv, of a run in 3-D surface-map.csv, of a texture height.csv.
 
         lasersph.export("runs/texture-steel", "stl", at="60 ns")
 

@@ -46,7 +46,8 @@ class ParticleFile:
             cells: a vertex for each point, or one line through all of them in their order; points
                 of a grid are always triangles.
         """
-        self.path, self.cells = path, cells
+        self.path = path
+        self.cells: CellKind = cells
 
     @property
     def steps(self) -> int:
@@ -100,7 +101,7 @@ class ParticleFile:
             points = to_three_axes(position)
             point_offset = store_block(root["Points"], points)
             store_range(file, "position", points)
-            cells = self.cells if shape is None else "Polygons"
+            cells: CellKind = self.cells if shape is None else "Polygons"
             part, first_cell, first_point = store_cells(root, count, cells, shape)
             place = CELL_KINDS.index(cells)
             # Where the blocks of this step begin.

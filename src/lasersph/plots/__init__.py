@@ -44,6 +44,12 @@ from lasersph.plots.relief import (
     topography_history,
 )
 from lasersph.plots.run_figures import captions, draw_run, plot
+from lasersph.plots.surface_maps import (
+    surface_flow_map,
+    surface_height_map,
+    surface_sections,
+    surface_temperature_map,
+)
 from lasersph.plots.surface_profiles import surface_flow_profiles, surface_profiles
 from lasersph.plots.texture import texture_figure
 from lasersph.plots.uncertainty import tornado_chart
@@ -80,10 +86,14 @@ __all__ = [
     "reliefs",
     "speed_extrema",
     "speed_history",
+    "surface_flow_map",
     "surface_flow_profiles",
+    "surface_height_map",
     "surface_pressure_history",
     "surface_profiles",
+    "surface_sections",
     "surface_speeds",
+    "surface_temperature_map",
     "surface_temperatures",
     "temperature_history",
     "texture_figure",

@@ -1,5 +1,5 @@
 """An animation of a run from its snapshots: temperature, and speed with arrows where it flows; of
-an ablation the cut through the crater with its ejecta.
+an ablation the cut through the crater with its ejecta; of a surface that moves in 3-D its height.
 
 Colors keep their meaning over all frames. The gif needs nothing beside matplotlib; mp4 needs the
 program ffmpeg.
@@ -46,6 +46,8 @@ from lasersph.plots.flow_map import (
     shape_of,
 )
 from lasersph.plots.particle_map import MAP_WIDTH, shown_depth
+from lasersph.plots.surface_animation import surface_frames
+from lasersph.plots.surface_maps import has_maps
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -68,8 +70,8 @@ def animate_run(folder: RunOrFolder, *, format: Format = "gif") -> Path:
     Of a train of pulses with pauses the last pulse is shown.
 
     Args:
-        folder: a run, or its folder; the run has at least 3 snapshots and is in the plane, or an
-            ablation in 2-D or 3-D.
+        folder: a run, or its folder; the run has at least 3 snapshots and is in the plane, or in
+            3-D an ablation or a surface that moves.
         format: "gif", or "mp4" where ffmpeg is installed.
 
     Returns:
@@ -109,10 +111,12 @@ def check_snapshots(run: Run) -> None:
         raise OutputError(
             f"{run.path} has {len(run.snapshots)} snapshots; an animation needs {LEAST_FRAMES}"
         )
-    if has_ablation(run) and run.snapshots.dimension == 3:
+    if run.snapshots.dimension == 3 and (has_ablation(run) or has_maps(run)):
         return
     if run.snapshots.dimension != 2:
-        raise OutputError(f"{run.path} is no plane run: only those are animated")
+        raise OutputError(
+            f"{run.path} is no plane run: only those are animated, and surfaces that move in 3-D"
+        )
 
 
 def frames(run: Run) -> Iterator[Figure]:
@@ -120,6 +124,9 @@ def frames(run: Run) -> Iterator[Figure]:
     times = frame_times(run)
     if has_ablation(run):
         yield from crater_frames(run, times)
+        return
+    if has_maps(run):
+        yield from surface_frames(run, times)
         return
     # Scales and panels of the first frame hold for all.
     scene = scene_of(run, times)

@@ -113,12 +113,8 @@ def surface_flow_map(run: RunOrFolder) -> Figure | None:
         cmap=style.SPEED_COLORS,
         vmin=0.0,
     )
-    # Components mirrored with their signs; what hardly moves has no streamlines.
-    shape, (x, y) = run.surface.shape, step["position"][:2].reshape(2, *run.surface.shape)
-    u, v = (
-        whole_map(x[:, 0], y[0], step["velocity"][k].reshape(shape), run.mirrored, odd)[2].T
-        for k, odd in enumerate(((True, False), (False, True)))
-    )
+    # What hardly moves has no streamlines.
+    u, v = velocity_maps(run, step)
     still = speed.z < LINE_SHARE * fastest
     axes.streamplot(
         np.linspace(speed.x[0], speed.x[-1], speed.x.size) * unit.factor,
@@ -135,6 +131,24 @@ def surface_flow_map(run: RunOrFolder) -> Figure | None:
     return figure
 
 
+def velocity_maps(run: Run, step: dict[str, Any]) -> tuple[np.ndarray, np.ndarray]:
+    """Velocity of the surface along x and along y, (ny, nx) each [m/s]: mirrored, with its sign.
+
+    Args:
+        step: of `Run.surface`.
+    """
+    x, y, u, v = (
+        values.reshape(run.surface.shape)
+        for values in (*step["position"][:2], *step["velocity"][:2])
+    )
+    # u changes its sign across x = 0, v across y = 0
+    along_x, along_y = (
+        whole_map(x[:, 0], y[0], values, run.mirrored, odd)[2].T
+        for values, odd in ((u, (True, False)), (v, (False, True)))
+    )
+    return along_x, along_y
+
+
 def surface_temperature_map(run: RunOrFolder) -> Figure | None:
     """Temperature of the surface when it was hottest; None without a surface over x and y."""
     run = open_run(run)
@@ -148,8 +162,8 @@ def surface_temperature_map(run: RunOrFolder) -> Figure | None:
     )
     # Lines at the corners of the melting range, where the surface has them.
     material = run.summary.get("material", {}) if run.is_complete else {}
-    levels = sorted({material.get("solidus_K"), material.get("liquidus_K")} - {None})
-    levels = [one for one in levels if np.min(found.z) < one < np.max(found.z)]
+    corners = {float(material[key]) for key in ("solidus_K", "liquidus_K") if material.get(key)}
+    levels = sorted(one for one in corners if np.min(found.z) < one < np.max(found.z))
     if levels:
         x, y = found.x * unit.factor, found.y * unit.factor
         lines = axes.contour(x, y, found.z, levels=levels, colors="w", linewidths=0.9)
@@ -170,13 +184,13 @@ def _painted(
     """A map of values (ny, nx) with a color bar of a name; figure, axes, unit of the places."""
     unit = style.fitting_unit("m", max(np.max(np.abs(place.x)), np.max(np.abs(place.y))))
     figure, (axes,) = style.new_figure(height=5.2)
-    image = style.paint(axes, values, _edges(place), unit, **options)
+    image = style.paint(axes, values, edges(place), unit, **options)
     style.label(axes, f"x [{unit.name}]", f"y [{unit.name}]")
     style.color_bar(axes, image, name, aspect=24.0)
     return figure, axes, unit
 
 
-def _edges(place: HeightMap) -> tuple[float, float, float, float]:
+def edges(place: HeightMap) -> tuple[float, float, float, float]:
     """Left, right, lower and upper edge of the columns of a map [m]."""
     dx, dy = (0.5 * step for step in place.steps)
     x, y = place.x, place.y
@@ -185,6 +199,6 @@ def _edges(place: HeightMap) -> tuple[float, float, float, float]:
 
 def _fit(axes: Axes, place: HeightMap, unit: style.Unit) -> None:
     """Let axes show a map and no more."""
-    left, right, bottom, top = (edge * unit.factor for edge in _edges(place))
+    left, right, bottom, top = (edge * unit.factor for edge in edges(place))
     axes.set_xlim(left, right)
     axes.set_ylim(bottom, top)

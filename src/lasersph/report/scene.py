@@ -86,7 +86,8 @@ def part_of(index: dict[str, Any], names: list[str], chosen: list[int]) -> dict[
     # A surface that moves has the same frames; as a body it has colors of its own.
     line = index["surface"]
     is_body = line is not None and (line["shape"] is not None or index["revolved"])
-    of_surface = [name for name in ON_SURFACE if is_body and name in line["blocks"]]
+    blocks_of_body = line["blocks"] if line is not None and is_body else {}
+    of_surface = [name for name in ON_SURFACE if name in blocks_of_body]
     return {
         **index,
         **cut(index, names),

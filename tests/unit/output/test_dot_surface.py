@@ -13,7 +13,9 @@ from lasersph.observers.relief import Relief
 from lasersph.observers.surface_fields import at_columns, surface_fields
 from lasersph.output import open_run
 from lasersph.output.export import export
+from lasersph.output.frame_blocks import particle_index
 from lasersph.output.surface_files.read import read_surface
+from lasersph.report.scene import embedded_frames
 from lasersph.web.run_page import relief
 
 K = 2.0 * np.pi / PERIOD
@@ -36,6 +38,20 @@ def test_relief_is_that_of_the_whole(dot):
     x, y, z = np.loadtxt(dot.path / "surface.csv", delimiter=",", skiprows=1).T
     assert z == pytest.approx(-DEPTH * np.cos(K * x) * np.cos(K * y), rel=1e-6, abs=1e-16)
     assert x.size == 1600
+
+
+def test_report_holds_the_body(dot):
+    """Frames of a page have the surface with its fields, in 16 bits; so has the index of a page."""
+    frames = embedded_frames(dot)
+    index = frames["index"]
+    nx, ny = index["surface"]["shape"]
+    assert set(index["surface"]["blocks"]) == {"position", "temperature", "speed", "height"}
+    assert {one["name"] for one in index["fields"]} >= {"temperature", "speed", "height"}
+    assert (index["mirrored"], index["mirrored_y"]) == dot.mirrored
+    name = next(name for name in frames["blocks"] if name.startswith("surface.height"))
+    assert np.shape(frames["blocks"][name]["range"]) == (1, 2)
+    whole = particle_index(dot.path)
+    assert whole["surface"]["shape"] == [nx, ny] and whole["surface"]["counts"][0] == nx * ny
 
 
 def test_page_of_a_run_shows_a_section(dot):

@@ -10,12 +10,15 @@ import synthetic_flow
 from synthetic_dot import DEPTH, FASTEST, PERIOD, make_dot_run
 
 from lasersph.output import open_run
+from lasersph.plots.animation import animate_run
 from lasersph.plots.relief import has_lines, relief_map, relief_profiles, topography_history
+from lasersph.plots.surface_animation import surface_frames
 from lasersph.plots.surface_maps import (
     surface_flow_map,
     surface_height_map,
     surface_sections,
     surface_temperature_map,
+    velocity_maps,
 )
 
 MAPS = (surface_height_map, surface_flow_map, surface_temperature_map)
@@ -47,6 +50,31 @@ def test_values_of_maps(dot):
     assert speed[20, 20] < 0.15 * FASTEST and np.max(speed) == pytest.approx(FASTEST, rel=0.02)
     assert temperature[20, 20] == pytest.approx(2700.0, rel=0.01)
     assert height == pytest.approx(height[::-1]) and height == pytest.approx(height.T)
+
+
+def test_velocity_is_mirrored_with_its_sign(dot):
+    """u is odd in x and even in y, v the other way round; both are those of the dot."""
+    step = dot.surface[-1]
+    u, v = velocity_maps(dot, step)
+    assert u == pytest.approx(-u[:, ::-1]) and u == pytest.approx(u[::-1])
+    assert v == pytest.approx(v[:, ::-1]) and v == pytest.approx(-v[::-1])
+    x = dot.relief().x
+    k = 2 * np.pi / PERIOD
+    near = np.abs(x) < 0.2 * PERIOD
+    expected = FASTEST * np.sin(k * x) * np.cos(k * x[:, None])
+    assert u[np.ix_(near, near)] == pytest.approx(expected[np.ix_(near, near)], rel=1e-5, abs=1e-9)
+
+
+def test_animation(dot):
+    """Height and temperature of each time with the same colors; a picture that can be played."""
+    figures = [
+        [np.array(axes.images[0].get_array()) for axes in figure.axes[:2]]
+        for figure in surface_frames(dot, dot.surface.times)
+    ]
+    assert len(figures) == len(dot.surface)
+    assert np.all(figures[0][0] == 0.0) and np.max(np.abs(figures[-1][0])) > 55.0
+    assert np.max(figures[-1][1]) > 2600.0
+    assert animate_run(dot).stat().st_size > 1000
 
 
 def test_sections(dot):

@@ -74,6 +74,9 @@ def test_table_of_dots():
     assert table.at("height", fluence, x + PERIOD, y - 3 * PERIOD) == pytest.approx(
         table.at("height", fluence, x, y), abs=1e-20
     )
+    # next to the seam the first column counts, not the last one
+    seam = table.at("height", HIGHEST, 0.49 * PERIOD / 48, 0.0)
+    assert seam == pytest.approx(table.values["height"][-1, 0, 0], abs=0.05 * NM)
     assert np.all(table.at("temperature", 0.0, x, y) == AMBIENT)
     with pytest.raises(ValueError, match="exceeds that of all cells"):
         table.at("height", 1.1 * HIGHEST, x, y)

@@ -216,8 +216,8 @@ class _Alignment:
 
         # each place and factor, leveled; the best few are followed; dots repeat along y as well
         offsets = np.zeros(1)
-        if has_dots(relief) and not relief.is_spot:
-            reach_y = 0.5 * (relief.period_y or 0.0)
+        if isinstance(relief, Relief) and relief.period_y is not None and not relief.is_spot:
+            reach_y = 0.5 * relief.period_y
             offsets = np.arange(-reach_y, reach_y, period / STARTS_A_PERIOD) / period
             values["shift_y_m"] = 0.0
         factors = [relief.largest_factor * k for k in (0.97, 0.8)]

@@ -84,7 +84,7 @@ def melt_depths(run: Run, axes: tuple[Array, Array]) -> Array:
         for place, axis in zip(first["position"][:2], axes, strict=True)
     ]
     shape = (axes[0].size, axes[1].size)
-    column = np.ravel_multi_index(tuple(numbers), shape)
+    column = numbers[0] * shape[1] + numbers[1]
     material = run.summary["material"]
     melting = 0.5 * (material["solidus_K"] + material["liquidus_K"])
     found = depth_below(column, shape[0] * shape[1], first, melted, hottest, melting)

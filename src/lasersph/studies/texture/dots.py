@@ -124,13 +124,15 @@ class DotTable:
                 places, (self.x, self.y), (self.period, self.period_y), strict=True
             )
         ]
-        return map_coordinates(self._levels[name], [level, *axes], order=1, mode="nearest")
+        coordinates = np.reshape([level, *axes], (3, -1))
+        found = map_coordinates(self._levels[name], coordinates, order=1, mode="nearest")
+        return found.reshape(wanted.shape)
 
     def in_spot(
-        self, name: str, fluence: Callable[[Array, Array], Array], x: Array, y: Array
+        self, name: str, fluence: Callable[[Array, Array], Array], x: ArrayLike, y: ArrayLike
     ) -> Array:
         """Values in a spot of a local fluence [J/m^2] at places x, y [m], any shape."""
-        x, y = np.broadcast_arrays(x, y)
+        x, y = np.broadcast_arrays(np.asarray(x, float), np.asarray(y, float))
         return self.at(name, fluence(x, y), x, y)
 
     def repeating(self, name: str, x: Array, y: Array) -> Array:

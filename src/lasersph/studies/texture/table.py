@@ -130,12 +130,12 @@ class CellTable:
         return map_coordinates(values[name], [row, column], order=1, mode="nearest")
 
     def in_spot(
-        self, name: str, fluence: Callable[[Array, Array], Array], x: Array, y: Array
+        self, name: str, fluence: Callable[[Array, Array], Array], x: ArrayLike, y: ArrayLike
     ) -> Array:
         """Values in a spot of a local fluence [J/m^2] at places x, y [m], any shape."""
         if name in BETWEEN_EDGES:
             return self.lines[name].across(fluence, x, y)
-        return self.at(name, fluence(x, y), x)
+        return self.at(name, fluence(np.asarray(x, float), np.asarray(y, float)), x)
 
     def repeating(self, name: str, x: Array, y: Array) -> Array:
         """Values of the darkest cell at places [m], any shape; lines are the same at any y."""

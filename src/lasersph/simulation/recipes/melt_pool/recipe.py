@@ -10,7 +10,8 @@ import numpy as np
 from lasersph.compute.backend import Backend
 from lasersph.observers import Observers, flow_observers
 from lasersph.observers.area_relief import AreaRelief
-from lasersph.observers.relief import WHOLE, Relief
+from lasersph.observers.even_places import WHOLE
+from lasersph.observers.relief import Relief
 from lasersph.observers.topography import Topography
 from lasersph.observers.view import View
 from lasersph.simulation.recipes.conduction import HeatRecipe

@@ -1,0 +1,56 @@
+"""Frames of a surface over x and y that moves: its height and its temperature, side by side."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from lasersph.output import Run
+from lasersph.output.height_map import surface_map
+from lasersph.plots import style
+from lasersph.plots.relief import largest
+from lasersph.plots.surface_maps import edges
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+COLORS = {"height": "RdBu_r", "temperature": style.TEMPERATURE_COLORS}
+
+
+def surface_frames(run: Run, times: np.ndarray) -> Iterator[Figure]:
+    """One figure again and again, each time with the surface closest to another of `times` [s].
+
+    Colors keep their meaning over all frames.
+    """
+    steps = [run.surface.nearest(float(time)) for time in times]
+    first = surface_map(steps[0], run.surface.shape, run.mirrored)
+    unit = style.fitting_unit("m", max(np.max(np.abs(first.x)), np.max(np.abs(first.y))))
+    # Scales of all frames: heights around 0, temperatures from the coldest to the hottest.
+    deepest = max(largest(step["height"]) for step in steps)
+    up = style.fitting_unit("m", deepest)
+    factors = {"height": up.factor, "temperature": 1.0}
+    heat = [float(end(step["temperature"])) for step in steps for end in (np.min, np.max)]
+    ends = {
+        "height": (-deepest * up.factor, deepest * up.factor),
+        "temperature": (min(heat), max(heat)),
+    }
+    names = {"height": f"height [{up.name}]", "temperature": "temperature [K]"}
+    figure, panels = style.new_figure(1, 2, height=3.4)
+    images = []
+    for axes, name in zip(panels, names, strict=True):
+        low, high = ends[name]
+        empty = np.zeros(first.z.shape)
+        image = style.paint(axes, empty, edges(first), unit, cmap=COLORS[name], vmin=low, vmax=high)
+        style.label(axes, f"x [{unit.name}]", f"y [{unit.name}]")
+        style.color_bar(axes, image, names[name])
+        images.append((name, image))
+
+    # The same pictures with other values, and the time above them.
+    for step in steps:
+        for name, image in images:
+            values = surface_map(step, run.surface.shape, run.mirrored, name).z
+            image.set_data(values * factors[name])
+        panels[0].set_title(style.time_text(step["time"]), fontsize=10, loc="left")
+        yield figure
