@@ -17,8 +17,8 @@ LAYERS_OF_CRATER = 1.25
 def quick_settings(case: Case) -> list[str]:
     """Overrides that make a case coarse: spacing times 4 and steps times 2.
 
-    At least 10 cells stay along each side of the domain, 12 below a surface that moves, and a crater
-    that is expected stays deeper than a particle.
+    At least 10 cells stay along each side of the domain, 12 below a surface that moves, and a
+    crater that is expected stays deeper than a particle.
     """
     # Coarser, but with cells along each side and in the crater.
     largest = largest_spacing(case)

@@ -215,7 +215,7 @@ def _sizes(case: Case, heating: HeatingForecast) -> Iterator[str]:
 
 
 def _no_melt(case: Case, heating: HeatingForecast) -> Iterator[str]:
-    """A pool under light that does not melt the metal, so that nothing flows and no relief stays."""
+    """A pool under light that does not melt the metal: nothing flows, and no relief stays."""
     melting = case.material.melting
     if melting is not None and heating.melts is False and computes_flow(case.solver):
         yield (
