@@ -110,15 +110,15 @@ def _thin_melt(summary: Mapping[str, Any]) -> Iterator[str]:
 
 
 def _resting_melt(summary: Mapping[str, Any]) -> Iterator[str]:
-    """Completely fluid metal of which no particle flowed: the pool is shallower than a row."""
+    """Completely fluid metal of which no particle flowed: the pool holds too few of them."""
     depth, spacing = summary.get("melt", {}).get("depth_max_m"), summary.get("spacing_m")
     flow = summary.get("flow", {})
     # a box of liquid has no pool; one that rests has its reason elsewhere
     if depth and spacing and flow.get("particles_max") == 0:
         yield (
-            f"metal was fluid down to {format_quantity(depth, 'm', 3)}, but in no whole cell of "
-            f"{format_quantity(spacing, 'm', 3)}: nothing flowed, and its speed and relief are 0 "
-            "for that reason; take a finer spacing"
+            f"metal was fluid down to {format_quantity(depth, 'm', 3)}, but no particle flowed: "
+            f"{format_quantity(spacing, 'm', 3)} are too coarse for such a pool, and its speed and "
+            "relief of 0 say nothing; take a finer spacing"
         )
 
 
