@@ -125,7 +125,7 @@ def test_page_with_an_animation(tmp_path, monkeypatch):
 
 
 def test_fluid_metal_in_which_nothing_flowed_is_warned_of():
-    """A pool of a row of particles at most may have no speed and no relief: said with both sizes."""
+    """A pool of one row of particles may have no speed and no relief: said with both sizes."""
     melt = {"depth_max_m": 1.91e-7, "depth_half_max_m": 2.6e-7, "end_any_s": 1e-8}
     summary = {"melt": melt | {"molten_at_end": False}, "time_s": 1e-7, "energy": ENERGY}
     summary |= {"spacing_m": 3.333e-7, "flow": {"particles_max": 0}}
