@@ -31,9 +31,9 @@ def test_numbers_stay_with_their_units():
 
 
 def test_powers_are_written_as_powers():
-    """A narrow column would part 1.7e- and 06; names and hashes are no numbers."""
-    assert kept("1.74452e-05") == "1.74452·10⁻⁵"
-    assert kept("Ra 1e+03, 3e11 W/m²") == f"Ra 10³, 3·10¹¹{BLANK}W/m²"
+    """A narrow column would part 1.7e- and 06; powers part before their point alone."""
+    assert kept("1.74452e-05") == "1.74452\u200b·10⁻⁵"
+    assert kept("Ra 1e+03, 3e11 W/m²") == f"Ra 10³, 3\u200b·10¹¹{BLANK}W/m²"
     assert kept("0.6 e, a1e3, 2e") == "0.6 e, a1e3, 2e"
 
 

@@ -8,6 +8,8 @@ from docutils import nodes
 BREAK = re.compile(r"(?<=[0-9)]) (?=(?:%|°|[munkMG]?(?:m|s|g|J|K|N|W|B|Pa|iB)\b|µ[ms]|J/|W/|ms\b))")
 """The blank between a number and what looks like a unit."""
 NO_BREAK = "\u00a0"
+MAY_BREAK = "\u200b"
+"""Blank without a width: a narrow column parts a number before its power, not within it."""
 POWER = re.compile(r"(?<![\w.])(\d+(?:\.\d+)?)e([+-]?)0*(\d+)\b")
 """A number as programs print it, 1.7e-06: its factor, the sign and the digits of its power."""
 RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
@@ -17,7 +19,7 @@ def with_power(found: re.Match[str]) -> str:
     """1.7·10⁻⁶ for 1.7e-06, 10³ for 1e+03."""
     factor, sign, digits = found.groups()
     power = f"10{(sign.removeprefix('+') + digits).translate(RAISED)}"
-    return power if factor == "1" else f"{factor}·{power}"
+    return power if factor == "1" else f"{factor}{MAY_BREAK}·{power}"
 
 
 def keep_units(_app: Any, doctree: nodes.document) -> None:

@@ -4,7 +4,7 @@ import re
 from typing import Any
 
 from validation_charts import judged, share_of
-from validation_table import NOT_MET, UNEXPLAINED, anchor, label, number, plain, table
+from validation_table import NOT_MET, UNEXPLAINED, anchor, label, number, plain, prose, table
 
 from lasersph.validation.records import State
 
@@ -27,12 +27,12 @@ def validation_page(state: State, readme: str) -> str:
     parts = [f"({anchor(state)})=\n# {state.name}", f"{title} ({said}.)"]
     figures = [_figure(state, file) for file in record["figures"]] if record else []
     parts += figures[:1]
-    parts.append(text)
+    parts.append(f'<div class="readme">\n\n{text}\n\n</div>')
     if state.word == "failed" and NOT_MET not in readme:
         parts.append(UNEXPLAINED)
     if record is None:
         return _joined(parts)
-    parts.append("\n".join(f"- {plain(remark)}" for remark in record["remarks"]))
+    parts.append("\n".join(f"- {prose(remark)}" for remark in record["remarks"]))
     parts += _numbers(state, record)
     parts += figures[1:]
     parts.append(_origin(record))
@@ -83,7 +83,8 @@ def _numbers(state: State, record: dict[str, Any]) -> list[str]:
         equal = []
     parts = ["## Numbers"]
     if judged(record):
-        parts.append(f"![{state.name}: difference over tolerance](../validation-{state.name}.svg)")
+        chart = f"![{state.name}: difference over tolerance](../validation-{state.name}.svg)"
+        parts.append(f'<div class="chart">\n\n{chart}\n\n</div>')
     unequal = [row for row in judged_rows if row not in equal]
     open_rows, near = _worst(unequal)
     if open_rows:
@@ -96,7 +97,7 @@ def _numbers(state: State, record: dict[str, Any]) -> list[str]:
     for words, group in groups.items():
         if group:
             parts.append(_folded(f"{len(group)} more numbers, {words}", _table(group, notes)))
-    parts.append("\n".join(f"- ({k}) {plain(text)}" for text, k in notes.items()))
+    parts.append("\n".join(f"- ({k}) {prose(text)}" for text, k in notes.items()))
     return parts
 
 

@@ -6,7 +6,11 @@ from typing import Any
 
 from lasersph.validation.records import State
 
-CHARTS = """![Every judged number](generated/validation-overview.svg)
+CHARTS = """<div class="chart">
+
+![Every judged number](generated/validation-overview.svg)
+
+</div>
 
 *A point is one judged number, by how far it lies from its reference in units of its tolerance: left
 of the line it is met. Statements that hold or not have no distance; they stand in the tables only.
@@ -117,6 +121,14 @@ def number(value: float | str | None) -> str:
 def plain(text: str) -> str:
     """Text whose characters mean nothing to Markdown."""
     return re.sub(r"([|*<>$\[\]`\\])", r"\\\1", text)
+
+
+def prose(text: str) -> str:
+    """Text as above, whose names between backticks stay code."""
+    parts = text.split("`")
+    if len(parts) % 2 == 0:
+        return plain(text)
+    return "".join(f"`{part}`" if k % 2 else plain(part) for k, part in enumerate(parts))
 
 
 def table(head: tuple[str, ...], rows: list[tuple[str, ...]]) -> str:

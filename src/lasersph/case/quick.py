@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from lasersph.analytic.half_space import ablated_depth
 from lasersph.case.case import Case
+from lasersph.case.surface_checks import FEWEST_COLUMNS
 from lasersph.input import format_quantity
 
 SPACING_FACTOR = 4.0
@@ -16,8 +17,8 @@ LAYERS_OF_CRATER = 1.25
 def quick_settings(case: Case) -> list[str]:
     """Overrides that make a case coarse: spacing times 4 and steps times 2.
 
-    At least 10 cells stay along each side of the domain, and a crater that is expected stays deeper
-    than a particle.
+    At least 10 cells stay along each side of the domain, 12 below a surface that moves, and a
+    crater that is expected stays deeper than a particle.
     """
     # Coarser, but with cells along each side and in the crater.
     largest = largest_spacing(case)
@@ -42,6 +43,9 @@ def largest_spacing(case: Case) -> float:
     # The narrowest side holds a few cells; an expected crater is deeper than one.
     sides = [high - low for low, high in case.domain.lateral(case.geometry)]
     largest = min([case.domain.depth, *sides]) / FEWEST_CELLS
+    if case.surface_moves:
+        # rounded down, so that the columns fit
+        largest = min([largest, *(0.999 * side / FEWEST_COLUMNS for side in sides)])
     crater = expected_crater(case)
     return min(largest, crater / LAYERS_OF_CRATER) if crater else largest
 

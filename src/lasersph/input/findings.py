@@ -292,11 +292,7 @@ def _left_out(path: Path, document: Document) -> str:
     kind = (*path[:-1], "kind")
     if not document.origin_within(kind) or document.origin_within(path):
         return ""
-    table = {"kind": document.at(kind)}
-    return (
-        f"; leave it out with --set {dotted(path)}= or, in a plan, "
-        f'"{dotted(path[:-1])}" = {as_toml(table)}'
-    )
+    return f'; leave it out with --set {dotted(path)}= or, in a plan, "{dotted(path)}" = ""'
 
 
 def _path_of(word: str, table: Path) -> Path:

@@ -19,8 +19,9 @@ WITHOUT_KILO = ("m", "m^2", "m^3", "s")
 """Nobody says kilosecond, and no body here is a kilometer long."""
 LEAST_POWER = {"m": -3}
 """Of a thousand; nobody measures metal in picometers: an atom is 0.25 nm wide."""
-SMALLEST = 1e-15
-"""Lengths [m] and times [s] below this are rounding errors: a proton, a light period."""
+SMALLEST = {"m": 1e-15, "s": 1e-17}
+"""Lengths [m] and times [s] below this are rounding errors: a proton, a thousandth of the shortest
+pulses of light, whose steps are shown."""
 RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
@@ -37,7 +38,7 @@ def format_quantity(
     if value is None or not math.isfinite(value):
         return "–"
     # Rounding leaves 1e-24 m where 0 is meant.
-    if unit in ("m", "s") and abs(value) < SMALLEST:
+    if abs(value) < SMALLEST.get(unit, 0.0):
         value = 0.0
     name, scale = _fitting_unit(value, unit, digits, typographic=typographic)
     return f"{format_number(value / scale, digits, typographic=typographic)} {name}".rstrip()

@@ -41,6 +41,7 @@ def found_warnings(summary: Mapping[str, Any], last: Mapping[str, Any] | None = 
         *_near_critical(summary.get("vaporization", {})),
         *_held_at_boiling(summary),
         *_thin_melt(summary),
+        *_resting_melt(summary),
         *_still_molten(summary, last or {}),
     ]
 
@@ -106,6 +107,19 @@ def _thin_melt(summary: Mapping[str, Any]) -> Iterator[str]:
         "metal began to melt, but no cell was half molten: its width and depth are not resolved, "
         "and 0 stands for them; take a finer spacing"
     )
+
+
+def _resting_melt(summary: Mapping[str, Any]) -> Iterator[str]:
+    """Completely fluid metal of which no particle flowed: the pool holds too few of them."""
+    depth, spacing = summary.get("melt", {}).get("depth_max_m"), summary.get("spacing_m")
+    flow = summary.get("flow", {})
+    # a box of liquid has no pool; one that rests has its reason elsewhere
+    if depth and spacing and flow.get("particles_max") == 0:
+        yield (
+            f"metal was fluid down to {format_quantity(depth, 'm', 3)}, but no particle flowed: "
+            f"{format_quantity(spacing, 'm', 3)} are too coarse for such a pool, and its speed and "
+            "relief of 0 say nothing; take a finer spacing"
+        )
 
 
 def _still_molten(summary: Mapping[str, Any], last: Mapping[str, Any]) -> Iterator[str]:

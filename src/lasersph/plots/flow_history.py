@@ -68,7 +68,7 @@ def extrema_history(run: RunOrFolder) -> Figure | None:
     # Speed above, place below, over the same time.
     for axes, end, label in (
         (above, "speed_m_s", "surface speed"),
-        (below, "x_m", "distance from x = 0"),
+        (below, "x_m", f"distance from {run.across} = 0"),
     ):
         lines = {f"flow_{name}_{end}": f"{name} extremum" for name in names}
         draw_columns(axes, run, lines, label=label, gaps=True)

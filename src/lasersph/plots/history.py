@@ -28,7 +28,7 @@ LEVELS = {"": "$f_m = 1$", "_half": "$f_m = 0.5$", "_any": "$f_m > 0$"}
 
 
 def temperature_history(run: RunOrFolder) -> Figure:
-    """Temperature of the surface (at x = 0), the largest, and at probes; pulse shaded."""
+    """Temperature of the surface in the middle, the largest, and at probes; pulse shaded."""
     run = open_run(run)
     history = run.history
     figure, (axes,) = style.new_figure()
@@ -39,7 +39,7 @@ def temperature_history(run: RunOrFolder) -> Figure:
     probes = {name: name.removeprefix("probe_").removesuffix("_K") for name in history}
     probes = {name: text for name, text in probes.items() if name.startswith("probe_")}
     shared = [name for name in probes if are_same(history[name], at_maximum)]
-    surface = "surface" + " at x = 0" * ("melt_width_m" in history)
+    surface = "surface" + f" at {run.across} = 0" * ("melt_width_m" in history)
     words = ", ".join([surface, *(f"probe {probes.pop(name)}" for name in shared)])
     lines = {"temperature_at_maximum_K": words}
     if not are_same(largest, at_maximum):

@@ -31,9 +31,9 @@ LARGE = {
     "ejecta.mass_kg": "mass of the ejecta",
 }
 """Main results that a reader asks for first, the most telling before the others, in short words."""
-COMMON_NAME = re.compile(r"[A-Z][a-z]+(-[a-z]+)?(?!\S)(?! [0-9])")
-"""Begins a metal that is small inside a sentence, as "Pure copper"; not "Ti-6Al-4V", not the trade
-name "Inconel 718"."""
+COMMON_NAME = re.compile(r"([A-Z][a-z]+(-[a-z]+)?|An?)(?!\S)(?! [0-9])")
+"""Begins a metal that is small inside a sentence, as "Pure copper" and "An alloy"; not "Ti-6Al-4V",
+not the trade name "Inconel 718"."""
 MOST_NUMBERS = 5
 WIDTHS = {
     "radius": "radius",

@@ -173,10 +173,11 @@ def pool_flow(summary: dict[str, Any]) -> list[str]:
         ]
     # Speed along the surface, when and where, and the flow back below it.
     place = quantity(abs(flow["surface_speed_max_x_m"]), "m", 3)
+    place += " from the axis" if is_section(summary) else " from x = 0"
     first = (
         f"The liquid flowed along the surface at up to"
         f" {quantity(flow['surface_speed_max_m_s'], 'm/s', 3)}"
-        f" (at {moment(summary, flow['surface_speed_max_at_s'])}, {place} from x = 0), in a layer"
+        f" (at {moment(summary, flow['surface_speed_max_at_s'])}, {place}), in a layer"
         f" {quantity(flow['layer_thickness_m'], 'm', 3)} thick, and back below it at up to"
         f" {quantity(flow['return_speed_max_m_s'], 'm/s', 3)}."
     )

@@ -39,6 +39,8 @@ Forecast: what is left of a difference after three is a twentieth."""
 LEAST_RISE = 1.0
 """Rise of the temperature under light of which it is worth to speak [K]. Forecast: less is no
 texturing, and the noise of many numbers."""
+MOST_FRAMES = 10_000
+"""Snapshots of a run that are proposed. Cost: a hundred times those of shipped cases."""
 MOST_LIGHT = 100.0
 """Heat of the light over that which boils what it heats. Forecast: shipped cases, ablation
 included, have less; mJ in place of uJ makes 1500 of a texture of copper."""
@@ -66,6 +68,7 @@ def run_warnings(
     if case.laser is not None and heating is not None:
         yield from _resolution(case, layers)
         yield from _sizes(case, heating)
+        yield from _no_melt(case, heating)
         yield from _vapor(case, heating)
         yield from _electrons(case, curve, heating)
         yield from _resting_spot(case)
@@ -100,12 +103,19 @@ def _frames(case: Case) -> Iterator[str]:
     """Snapshots of a flow that are further apart than its pulse lasts."""
     interval = case.output.snapshots.interval or case.end_of_pulse / DEFAULT_COUNT
     duration = pulse_duration(case)
+    assert case.laser is not None
     # The melt of a pulse lasts about as long as the pulse.
     if computes_flow(case.solver) and interval > duration and not case.output.snapshots.times:
+        finer = 0.1 * duration
+        # Ten in a pulse to the end may be more than a disk holds.
+        few = case.laser.pulse.count * case.end_of_pulse / finer < MOST_FRAMES
+        name = (
+            f'interval = "{format_quantity(finer, "s", 2)}"' if few else "times, those of interest"
+        )
         yield (
             f"snapshots are {format_quantity(interval, 's', 3)} apart, longer than the pulse of "
             f"{format_quantity(duration, 's', 3)}: figures miss the fastest flow, numbers do not; "
-            f'write output.snapshots.interval = "{format_quantity(0.1 * duration, "s", 2)}"'
+            f"write output.snapshots.{name}"
         )
 
 
@@ -201,6 +211,17 @@ def _sizes(case: Case, heating: HeatingForecast) -> Iterator[str]:
             f"the light brings {format_quantity(1e-4 * heating.absorbed_peak, '', 3)} J/cm^2, "
             f"{ratio:.2g} times what boils the layer of this metal that it heats: is laser.{name} "
             "right, or its unit (mJ where uJ is meant), or the size of the spot?"
+        )
+
+
+def _no_melt(case: Case, heating: HeatingForecast) -> Iterator[str]:
+    """A pool under light that does not melt the metal: nothing flows, and no relief stays."""
+    melting = case.material.melting
+    if melting is not None and heating.melts is False and computes_flow(case.solver):
+        yield (
+            f"nothing melts by estimate: light heats the surface to {heating.temperature:.0f} K, "
+            f"and this metal melts at {melting.solidus:.0f} K, so that nothing flows and no relief "
+            "stays; lasersph threshold --of melt finds where that begins"
         )
 
 

@@ -288,6 +288,9 @@ def test_quick_keeps_ten_cells():
     """A coarse case does not become a handful of particles, and stays valid."""
     case = load_case("stefan", ["domain.depth=1.2um"], quick=True)
     assert math.isclose(case.particles.spacing, 1.2e-7)
+    moving = ["domain.width=8um", "laser.beam.period=8um", "particles.spacing=100nm"]
+    coarse = quick_settings(load_case("texture-steel", moving))
+    assert load_case("texture-steel", [*moving, *coarse]).particles.spacing > 300e-9
     graded = load_case("dlip-steel", ["particles.coarsest=20nm", "particles.fine_depth=10nm"])
     assert [setting.partition("=")[0] for setting in quick_settings(graded)] == [
         "particles.spacing",

@@ -129,7 +129,7 @@ def test_another_kind_of_solver_by_a_setting():
         CaseError, match=r"leave it out with --set solver\.flow= or, in a plan, "
     ) as error:
         load_case("texture-steel", other)
-    assert str(error.value).endswith('"solver" = { kind = "conduction" }')
+    assert str(error.value).endswith('"solver.flow" = ""')
     for settings in ([*other, "solver.flow="], ['solver={ kind = "conduction" }']):
         assert load_case("texture-steel", settings).solver.kind == "conduction"
     with pytest.raises(CaseError) as error:  # its own fault, told as before

@@ -15,7 +15,7 @@ from lasersph.observers.wall_exchange import EVERY, WallExchange
 from lasersph.output import open_run
 from lasersph.plots import animation, run_figures
 from lasersph.report import tables, write_report
-from lasersph.report.summary_text import verdict, warning_texts
+from lasersph.report.summary_text import pool_flow, verdict, warning_texts
 from lasersph.report.tables import entry
 
 ENERGY = {"unit": "J/m", "imbalance_relative": 5e-5} | dict.fromkeys(
@@ -122,3 +122,20 @@ def test_page_with_an_animation(tmp_path, monkeypatch):
     assert "Nusselt number" in page
     assert "largest divergence that the projection leaves" in page
     assert str(open_run(folder).summary["flow"]["particles_max"]) == "576"
+
+
+def test_fluid_metal_in_which_nothing_flowed_is_warned_of():
+    """A pool of one row of particles may have no speed and no relief: said with both sizes."""
+    melt = {"depth_max_m": 1.91e-7, "depth_half_max_m": 2.6e-7, "end_any_s": 1e-8}
+    summary = {"melt": melt | {"molten_at_end": False}, "time_s": 1e-7, "energy": ENERGY}
+    summary |= {"spacing_m": 3.333e-7, "flow": {"particles_max": 0}}
+    (text,) = warning_texts(summary, [])
+    assert "fluid down to 191 nm" in text and "333 nm are too coarse" in text
+    assert warning_texts(summary | {"flow": {"particles_max": 3}}, []) == []
+
+
+def test_fastest_place_of_a_section_counts_from_its_axis(pool):
+    """In a plane it counts from x = 0."""
+    assert " from x = 0)" in pool_flow({**pool, "dimensions": 2})[0]
+    section = pool_flow({**pool, "dimensions": 2, "amount_dimensions": 3})[0]
+    assert " from the axis)" in section

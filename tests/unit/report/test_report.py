@@ -229,6 +229,7 @@ def test_end_of_the_run_is_no_end_of_the_melt(folder):
         ("Inconel 718, temperature-dependent", "Inconel 718"),
         ("AISI 304 stainless steel", "AISI 304 stainless steel"),
         ("Pure copper, temperature-dependent", "pure copper"),
+        ("An alloy like bronze, an example", "an alloy like bronze"),
         ("High-purity aluminum (Demuth & Lasagni 2020, Table 3)", "high-purity aluminum"),
     ],
 )
@@ -367,11 +368,9 @@ def test_notes(folder):
 def test_terminal_says_that_particles_are_of_a_part(folder):
     """Beside the number of particles; a whole domain says nothing."""
     summary = open_run(folder).summary
-    assert dict(summary_rows(summary))["particles"].endswith(" in one half")
-    quarter = summary | {"mirror_images": 4}
-    assert dict(summary_rows(quarter))["particles"].endswith(" in one quarter")
-    whole = summary | {"mirror_images": 1}
-    assert dict(summary_rows(whole))["particles"] == str(summary["particles"])
+    for images, part in ((2, " in one half"), (4, " in one quarter"), (1, "")):
+        rows = dict(summary_rows(summary | {"mirror_images": images}))
+        assert rows["particles"] == f"{summary['particles']}{part}"
 
 
 def test_places_of_a_section_are_radii():

@@ -57,6 +57,24 @@ def test_pulses_as_short_as_the_coupling_of_electrons(pulse, words):
     assert ("electrons are hotter" in warnings) == bool(words)
 
 
+def test_light_that_does_not_melt():
+    """Said with both temperatures; nothing is asked for the resolution of a flow that is not."""
+    cold = said("texture-steel", "laser.fluence=0.1 J/cm^2")
+    assert "nothing melts by estimate: light heats the surface to" in cold
+    assert "melts at 1670 K" in cold and "drags along" not in cold
+    assert "nothing melts" not in said("texture-steel")
+    assert "nothing melts" not in said(
+        "dlip-steel", "solver.kind=conduction", "laser.fluence=0.1 J/cm^2"
+    )
+
+
+def test_proposed_snapshots_fit_a_disk():
+    """Of a pulse of femtoseconds ten frames in a pulse to the end would be millions."""
+    short = ["laser.pulse.fwhm=100 fs", "laser.fluence=0.1 J/cm^2"]
+    assert "write output.snapshots.times" in said("texture-steel", *short)
+    assert "write output.snapshots.interval" in said("texture-steel", "laser.pulse.fwhm=3 ns")
+
+
 def test_coupling_time_by_hand():
     """C_e = gamma T_e of electrons that begin at 10 000 K, beside a lattice with as much."""
     heat = 0.5 * 100.0 * (1e8 - 9e4)

@@ -128,6 +128,16 @@ def test_points_that_contradict_are_refused_alone():
     assert bad.reason.startswith("particles: coarsest (1 um) is finer than the spacing (900 um)")
 
 
+def test_a_plan_leaves_out_what_another_kind_of_solver_does_not_know():
+    """As the refusal says: an empty text in place of the table of the case file."""
+    other = {"solver.kind": "conduction", "solver.vaporization": "plateau"}
+    vary = {"laser.fluence": ["0.5 J/cm^2"]}
+    with pytest.raises(CaseError, match=r'in a plan, "solver\.flow" = ""'):
+        build_plan("texture-steel", vary, set=other)
+    (point,) = build_plan("texture-steel", vary, set={**other, "solver.flow": ""}).points()
+    assert point.case is not None and point.case.solver.kind == "conduction"
+
+
 WRONG = {
     "unknown key": (
         '"laser.fluenc" = ["1 J/cm^2"]\n',

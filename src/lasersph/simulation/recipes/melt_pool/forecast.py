@@ -71,6 +71,8 @@ def flow_forecast(
         speed = layer / (nu * density) * slope * gradient
         if heating is not None and heating.surface is not None:
             speed = _pool_speed(case, solver, heating.surface)
+            # Where nothing melts there is no layer to resolve.
+            layer = layer if heating.surface.depth.any() else None
     else:
         # A box: the largest of its own speeds; only a free surface has a gradient.
         layer = None
