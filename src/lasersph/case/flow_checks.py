@@ -8,7 +8,7 @@ from itertools import chain
 from typing import TYPE_CHECKING
 
 from lasersph.boundaries.flow_conditions import FREE, FlowConditions
-from lasersph.boundaries.initial_flow import TaylorGreenFlow
+from lasersph.boundaries.initial_flow import TabulatedFlow, TaylorGreenFlow
 from lasersph.boundaries.settings import DIRICHLET, NEUMANN
 from lasersph.case.size import LARGEST_STEPS
 from lasersph.case.solver_choice import computes_flow, no_axis
@@ -147,6 +147,12 @@ def _box(case: CaseContents, flow: FlowConditions) -> Iterator[tuple[str, str]]:
     yield from _faces_along_y(case, flow)
     if isinstance(flow.initial, TaylorGreenFlow):
         yield from _vortices(case, flow.initial)
+    if isinstance(flow.initial, TabulatedFlow) and case.solver.dimensions == 3:
+        yield (
+            "solver.flow.initial.kind",
+            'a "table" has the velocities of a plane; write kind = "rest", or dimensions = 2 in '
+            "[solver]",
+        )
 
 
 def _key_of(flow: FlowConditions, side: str) -> str:
@@ -167,9 +173,12 @@ def _faces_along_y(case: CaseContents, flow: FlowConditions) -> Iterator[tuple[s
 def _vortices(case: CaseContents, initial: TaylorGreenFlow) -> Iterator[tuple[str, str]]:
     """Vortices must fill the box: the walls lie between them."""
     # Walls lie between vortices, half a period apart.
-    x, *_ = case.domain.lateral(case.geometry)
+    x, *y = case.domain.lateral(case.geometry)
     period = initial.period or x[1] - x[0]
-    for key, length in (("width", x[1] - x[0]), ("depth", case.domain.depth)):
+    sides = {"width": x[1] - x[0], "depth": case.domain.depth}
+    if y:
+        sides["breadth"] = y[0][1] - y[0][0]
+    for key, length in sides.items():
         count = length / (0.5 * period)
         if not math.isclose(count, max(1, round(count)), rel_tol=1e-6):
             yield (
