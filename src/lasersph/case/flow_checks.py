@@ -31,6 +31,11 @@ def flow_problems(case: CaseContents) -> Iterator[tuple[str, str]]:
     if not computes_flow(case.solver):
         return
     yield from _liquid(case, case.solver)
+    if case.solver.dimensions == 3 and case.solver.pressure == "published":
+        yield (
+            "solver.pressure",
+            '"published" is the matrix of a plane; write "multigrid", or dimensions = 2',
+        )
     yield from _heat_faces(case)
     if case.flow is None:
         yield from _pool(case, case.solver)
