@@ -11,7 +11,7 @@ from pydantic import Field, ValidationInfo, model_validator
 from lasersph.input import Length, Model, Velocity, refusal, with_rows_of_file
 
 Array = NDArray[np.float64]
-Box = tuple[tuple[float, float], tuple[float, float]]
+Box = tuple[tuple[float, float], ...]
 COLUMNS = ("x", "z", "u", "w")
 
 
@@ -21,24 +21,33 @@ class RestingFlow(Model):
     kind: Literal["rest"] = "rest"
 
     def velocity(self, position: Array, box: Box) -> Array:
-        """(2, n) velocity [m/s] at positions (2, n) [m]: zero."""
+        """(d, n) velocity [m/s] at positions (d, n) [m]: zero."""
         return np.zeros_like(position)
 
 
 class TaylorGreenFlow(Model):
-    """Taylor-Green vortices, as many as fit into the box (`lasersph.analytic.taylor_green`)."""
+    """Taylor-Green vortices, as many as fit into the box (`lasersph.analytic.taylor_green`).
+
+    In 3-D those of [Taylor & Green 1937], of one size along all axes, k = 2 pi/period:
+
+        u = U sin kx cos ky cos kz,    v = -U cos kx sin ky cos kz,    w = 0
+    """
 
     kind: Literal["taylor-green"] = "taylor-green"
     speed: Annotated[Velocity, Field(gt=0)] = Field(description="the largest")
     period: Annotated[Length, Field(gt=0)] | None = Field(
-        default=None, description="of the vortices in x and z; default: the width of the box"
+        default=None, description="of the vortices along each axis; default: the width of the box"
     )
 
     def velocity(self, position: Array, box: Box) -> Array:
-        """(2, n) velocity [m/s] at positions (2, n) [m] in a box ((x0, x1), (z0, z1)) [m]."""
+        """(d, n) velocity [m/s] at positions (d, n) [m] in a box ((x0, x1), ..., (z0, z1)) [m]."""
         from lasersph.analytic.taylor_green import TaylorGreen  # few cases start with them
 
         period = self.period or box[0][1] - box[0][0]
+        if len(position) == 3:
+            x, y, z = 2.0 * np.pi / period * position
+            u, v = np.sin(x) * np.cos(y) * np.cos(z), -np.cos(x) * np.sin(y) * np.cos(z)
+            return self.speed * np.stack([u, v, np.zeros_like(u)])
         return TaylorGreen(self.speed, period, viscosity=0.0).velocity(position)
 
 

@@ -8,7 +8,7 @@ from itertools import chain
 from typing import TYPE_CHECKING
 
 from lasersph.boundaries.flow_conditions import FREE, FlowConditions
-from lasersph.boundaries.initial_flow import TaylorGreenFlow
+from lasersph.boundaries.initial_flow import TabulatedFlow, TaylorGreenFlow
 from lasersph.boundaries.settings import DIRICHLET, NEUMANN
 from lasersph.case.size import LARGEST_STEPS
 from lasersph.case.solver_choice import computes_flow, no_axis
@@ -31,6 +31,11 @@ def flow_problems(case: CaseContents) -> Iterator[tuple[str, str]]:
     if not computes_flow(case.solver):
         return
     yield from _liquid(case, case.solver)
+    if case.solver.dimensions == 3 and case.solver.pressure == "published":
+        yield (
+            "solver.pressure",
+            '"published" is the matrix of a plane; write "multigrid", or dimensions = 2',
+        )
     yield from _heat_faces(case)
     if case.flow is None:
         yield from _pool(case, case.solver)
@@ -147,6 +152,12 @@ def _box(case: CaseContents, flow: FlowConditions) -> Iterator[tuple[str, str]]:
     yield from _faces_along_y(case, flow)
     if isinstance(flow.initial, TaylorGreenFlow):
         yield from _vortices(case, flow.initial)
+    if isinstance(flow.initial, TabulatedFlow) and case.solver.dimensions == 3:
+        yield (
+            "solver.flow.initial.kind",
+            'a "table" has the velocities of a plane; write kind = "rest", or dimensions = 2 in '
+            "[solver]",
+        )
 
 
 def _key_of(flow: FlowConditions, side: str) -> str:
@@ -167,9 +178,12 @@ def _faces_along_y(case: CaseContents, flow: FlowConditions) -> Iterator[tuple[s
 def _vortices(case: CaseContents, initial: TaylorGreenFlow) -> Iterator[tuple[str, str]]:
     """Vortices must fill the box: the walls lie between them."""
     # Walls lie between vortices, half a period apart.
-    x, *_ = case.domain.lateral(case.geometry)
+    x, *y = case.domain.lateral(case.geometry)
     period = initial.period or x[1] - x[0]
-    for key, length in (("width", x[1] - x[0]), ("depth", case.domain.depth)):
+    sides = {"width": x[1] - x[0], "depth": case.domain.depth}
+    if y:
+        sides["breadth"] = y[0][1] - y[0][0]
+    for key, length in sides.items():
         count = length / (0.5 * period)
         if not math.isclose(count, max(1, round(count)), rel_tol=1e-6):
             yield (

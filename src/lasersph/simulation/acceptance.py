@@ -8,6 +8,7 @@ from typing import Any, Literal
 from lasersph.case import Case
 from lasersph.case.checks import refuse_if_too_large
 from lasersph.case.size import Size
+from lasersph.case.solver_choice import computes_flow
 from lasersph.compute.threads import chosen
 from lasersph.input import CaseError, format_quantity
 from lasersph.simulation.forecast import Forecast, forecast
@@ -83,4 +84,10 @@ def check(
         CaseError: it needs more memory than there is.
         NoDevice: no card for "cuda".
     """
-    return accepted_forecast(case, backend, threads=chosen(threads))
+    expected = accepted_forecast(case, backend, threads=chosen(threads))
+    # of a flow in 3-D also what half the spacing would cost, some twenty times as much
+    if case.solver.dimensions == 3 and computes_flow(case.solver):
+        finer = case.particles.model_copy(update={"spacing": 0.5 * case.particles.spacing})
+        half = case.model_copy(update={"particles": finer})
+        expected = replace(expected, half=forecast(half, threads=expected.threads))
+    return expected

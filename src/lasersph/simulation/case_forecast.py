@@ -39,6 +39,7 @@ class Forecast:
         heating: effect of the light on the surface, if there is any.
         threads: for which the time was asked.
         backend: "cpu" or "cuda", for which the memory was asked.
+        half: forecast of the same case with half the spacing, where that was asked.
     """
 
     case: Case = field(repr=False)
@@ -60,6 +61,7 @@ class Forecast:
     heating: HeatingForecast | None = None
     threads: int = 1
     backend: str = "cpu"
+    half: Forecast | None = field(default=None, repr=False)
 
     def __str__(self) -> str:
         """Rows and warnings, as `lasersph check` prints them."""
@@ -97,6 +99,10 @@ def _rows(expected: Forecast) -> list[tuple[str, str]]:
     # How much work that is.
     rows.append(("steps", f"about {expected.steps} to {format_quantity(case.time.end, 's')}"))
     rows.append(("time", time if backend == "cpu" else "not estimated for a graphics card"))
+    if (half := expected.half) is not None:
+        longer = f"roughly {format_duration(half.wall_time)}"
+        text = f"{half.particles} particles, {in_words(half.memory)}, {longer}"
+        rows.append(("with half the spacing", text))
     if expected.flow is not None:
         rows.append(("viscosity of the melt", viscosity_text(case.material)))
         rows.append(("expected speed", f"up to about {expected.flow.speed:.2g} m/s"))

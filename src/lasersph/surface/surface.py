@@ -18,7 +18,7 @@ import numpy as np
 
 from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
-from lasersph.compute.vectors import dot, same, vector
+from lasersph.compute.vectors import dot, same
 from lasersph.particles.ghosts import MIRROR
 from lasersph.particles.neighbor_lists import NeighborList
 from lasersph.particles.particles import Particles
@@ -42,7 +42,7 @@ def depth_below(x, n, plane):
 
 
 def settle(settled, jump, m, remaining):
-    """Jump that the divergence sees [m/s]; at once the present one where there was none.
+    """Jump that the divergence sees [m/s], a vector; at once the present one where there was none.
 
     Ghosts beyond a stressed surface continue the profile of u, and where they do so unevenly their
     divergence is that of the profile. A stress that changes at once has no profile yet: its
@@ -54,14 +54,9 @@ def settle(settled, jump, m, remaining):
         m: relative viscosity. remaining: part of the difference after the step, exp(-dt nu / l^2)
             where m is 1.
     """
-    if settled == 0.0:
+    if dot(settled, settled) == 0.0:
         return 1.0 * jump
     return settled + (1.0 - remaining**m) * (jump - settled)
-
-
-def settle_jump(settled, jump, m, remaining):
-    """Jump of a vector that the divergence sees [m/s], each component as of `settle`."""
-    return vector(*(settle(settled[k], jump[k], m, remaining) for k in range(len(jump))))
 
 
 class PressureCondition(NamedTuple):
@@ -198,7 +193,7 @@ class Surface:
                 after the step where that is 1.
         """
         fields = {"settled": settled, "jump": self.ghost_velocity_jump, "m": relative_viscosity}
-        self.backend.pointwise(settle_jump, fields, settled, remaining=remaining)
+        self.backend.pointwise(settle, fields, settled, remaining=remaining)
 
     def settled_jump(self, settled: Array) -> Array:
         """`velocity_jump` as the divergence sees it."""

@@ -9,6 +9,9 @@ from lasersph.solvers.melt_pool.settings import MeltPoolSettings
 
 POOL = "solver.kind=melt-pool"
 BARE = ("laser=", "probes=")
+SPACE = ("solver.dimensions=3",)
+ONE_SPOT = ("laser.beam.kind=gaussian", "laser.beam.radius_1e2=2 um", "laser.beam.beams=")
+QUARTER_OF_DOTS = ("domain.extent=quarter", "laser.beam.beams=4")
 
 
 def refused(*settings, case="dlip-steel"):
@@ -16,6 +19,21 @@ def refused(*settings, case="dlip-steel"):
     with pytest.raises(CaseError) as error:
         load_case(case, [POOL, *settings])
     return str(error.value)
+
+
+def test_sides_of_a_box():
+    """`sides` hold for all four but those that have a key of their own; y is there in 3-D alone."""
+    box = load_case("lid-driven-cube", ["solver.flow.front=symmetry"]).flow
+    assert box is not None
+    kinds = {face: side.kind for face, side in box.faces.items()}
+    assert kinds["front"] == "symmetry"
+    assert {kinds[face] for face in ("left", "right", "back")} == {"no-slip"}
+    message = refused("solver.flow.front=no-slip", case="lid-driven-cavity")
+    assert "solver.flow.front: says nothing in 2-D, which has no y" in message
+    message = refused("domain.extent=quarter", case="lid-driven-cube")
+    assert 'solver.flow.sides: a quarter of a box is symmetric at x = 0, "no-slip"' in message
+    message = refused("solver.flow.back=periodic", case="lid-driven-cube")
+    assert "solver.flow.back: periodic on one side only" in message
 
 
 def test_a_pool_takes_the_case_of_heat():
@@ -47,7 +65,26 @@ def test_kind_may_be_left_out():
         ),
         (("boundaries.bottom=free",), 'boundaries.bottom: "free" cuts supports off'),
         (("boundaries.surface=wall", "boundaries.surface_temperature=3000 K"), "a laser heats"),
-        (("solver.dimensions=3",), "solver.dimensions: must be 2, got 3"),
+        (("solver.dimensions=1",), "solver.dimensions: must be 2 or 3, got 1: a column of liquid"),
+        (("domain.extent=quarter",), "domain.extent: a quarter is symmetric about y = 0, too"),
+        (
+            (*SPACE, "domain.extent=quarter", "laser.position=['0 m', '1 um']", *ONE_SPOT),
+            'this beam is not symmetric about y = 0; write extent = "full" or "half"',
+        ),
+        (
+            (*SPACE, *QUARTER_OF_DOTS, 'laser.beam.phases=["0 deg", "90 deg", "0 deg", "0 deg"]'),
+            'domain.extent: this beam is not symmetric about x = 0; write extent = "full"',
+        ),
+        (
+            (*SPACE, *QUARTER_OF_DOTS, "boundaries.front=periodic", "boundaries.back=periodic"),
+            'boundaries.front: a quarter of a block is symmetric at y = 0, "periodic" does not fit',
+        ),
+        (
+            (*SPACE, *QUARTER_OF_DOTS, "domain.breadth=6 um"),
+            "domain.breadth: 6 um is no whole number of the pattern's periods of",
+        ),
+        (("boundaries.front=adiabatic",), "boundaries.front: says nothing in 2-D, which has no y"),
+        ((*SPACE, "solver.pressure=published"), 'solver.pressure: "published" is the matrix of'),
         (("solver.viscosity=explicit", "time.end=1 s"), "solver.viscosity: 1.02e-06 m^2/s needs"),
         (("solver.viscosities=explicit",), 'solver.viscosities: unknown key; do you mean "visc'),
         (("solver.steady=0",), "solver.steady: must be greater than 0"),

@@ -5,13 +5,14 @@ import pytest
 from lasersph.analytic.thermocapillary_layer import ThermocapillaryLayer
 from lasersph.case import available_cases, estimate_count, load_case
 from lasersph.lasers import GaussianPulse, InterferenceBeam, SquarePulse
+from lasersph.particles.faces import PLANE
 from lasersph.solvers.ablation.settings import AblationSettings
 from lasersph.solvers.melt_pool.settings import MeltPoolSettings
 
 NAMES = (
     "ablation-aluminium", "ablation-depth", "dam-break", "dlip-aluminium", "dlip-steel",
-    "dots-steel", "hydrostatic-column", "lid-driven-cavity", "marangoni-layer",
-    "moving-film", "natural-convection", "pulsed-heating", "sound-wave", "spot-film", "spot-steel",
+    "dots-steel", "heated-cube", "hydrostatic-column", "lid-driven-cavity", "lid-driven-cube",
+    "marangoni-layer", "moving-film", "natural-convection", "pulsed-heating", "sound-wave", "spot-film", "spot-steel",
     "spot-weld", "stefan", "taylor-green", "texture-aluminium", "texture-steel",
 )  # fmt: skip
 
@@ -81,7 +82,7 @@ def test_boxes_of_one():
         assert round(estimate_count(case.domain, case.particles, case.geometry)) == 2500
     assert cavity.flow is not None and cavity.flow.surface.velocity == 1.0
     assert vortices.flow is not None
-    assert {side.kind for side in vortices.flow.faces.values()} == {"periodic"}
+    assert {vortices.flow.faces[side].kind for side in PLANE} == {"periodic"}
 
 
 def test_marangoni_layer_has_the_speed_that_it_states():

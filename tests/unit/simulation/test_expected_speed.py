@@ -28,8 +28,10 @@ COMPUTED = {
     ("moving-film", ""): 1.146,  # lasersph run moving-film --quick
     ("spot-film", ""): 0.48,  # lasersph run spot-film
     ("natural-convection", ""): 0.2977,  # lasersph run natural-convection --quick: any particle
+    ("heated-cube", ""): 0.2605,  # lasersph run heated-cube: any particle
     ("marangoni-layer", ""): 0.01445,  # docs/validation/marangoni-layer.json
     ("lid-driven-cavity", ""): 1.0,  # of the lid
+    ("lid-driven-cube", ""): 1.0,  # of the lid
     ("taylor-green", ""): 1.0,  # at the start, from which it decays
 }
 """Largest speed [m/s] of runs, of the shipped case or at another fluence."""

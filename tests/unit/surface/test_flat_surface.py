@@ -171,3 +171,27 @@ def test_tension_from_a_table():
         box_case(flow=FREE, material={"surface_tension": law}).material
     )
     assert np.interp([250.0, 350.0], T, gamma) == pytest.approx([1.75, 1.25])
+
+
+def test_stress_in_space():
+    """T = 300 K + 4 K/m x - 2 K/m y with dgamma/dT = -0.5 N/(m K): tau = (-2, 1, 0) Pa.
+
+    The ghost above a particle of depth 0.05 is faster by 2 * 0.05 tau / eta, eta = 0.01 Pa s.
+    """
+    solver = box(flow=FREE, material=SLOPE, dimensions=3)
+    x, y, _ = place_of(solver)
+    solver.particles.set("enthalpy", 4.0 * x - 2.0 * y)  # c = 1 J/(kg K)
+    solver.body.update_temperature()
+    block_of(solver)
+    surface = solver.domain.surface
+    middle = (np.abs(x[:100]) < 0.1) & (np.abs(y[:100]) < 0.1)
+    for name, expected in (
+        ("gradient", [4.0, -2.0, 0.0]),
+        ("stress", [-2.0, 1.0, 0.0]),
+        ("ghost_velocity_jump", [-20.0, 10.0, 0.0]),
+    ):
+        found = host(surface, name)[:, :100][:, middle]
+        assert found == pytest.approx(np.tile(np.array(expected)[:, None], middle.sum()), abs=1e-9)
+    # the third row has the mean stress of the first one, whose ends mirror T, and its own depth
+    below = host(surface, "ghost_velocity_jump")[:, 200:300][:, middle]
+    assert below[:, 0] == pytest.approx([-100.0, 50.0, 0.0], rel=1e-3, abs=0.0)

@@ -93,6 +93,19 @@ def test_velocity_beyond_a_stressed_surface():
     assert ghost_velocity(1, 1, v, jump, factor=entries((-1, -1)), **rules).tolist() == [-2.25, -3]
 
 
+def test_velocity_in_the_edge_of_two_planes():
+    """Beyond x = 0, y = 0 and a stressed surface at once: the jump first, then both mirrors."""
+    rules = {"stressed": [0.0, 1.0], "added": entries((0, 0, 0))}
+    v, jump = entries((2, 3, 5)), entries((0.25, 0.5, 0.0))
+    for factor, expected in (
+        ((-1, 1, -1), [-2.25, 3.5, -5]),
+        ((1, -1, -1), [2.25, -3.5, -5]),
+        ((-1, -1, -1), [-2.25, -3.5, -5]),
+    ):
+        found = ghost_velocity(1, 1, v, jump, factor=entries(factor), **rules)
+        assert found.tolist() == expected
+
+
 def test_velocity_at_wall():
     """(2 dt + d^2/nu) a along a wall 1 before the ghost: (2 * 0.5 + 1 / (4 * 0.5)) 6 = 9."""
     wall = {"along": entries((1, 0)), "normal": entries((0, 1)), "plane": [0.0, -2.0]}
