@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from lasersph.boundaries.settings import DIRICHLET, NEUMANN
+from lasersph.case.electron_checks import electron_problems
 from lasersph.case.flow_checks import flow_problems
 from lasersph.case.light_checks import light_problems, pulse_problems
 from lasersph.case.size import (
@@ -46,6 +47,7 @@ def problems_of(case: CaseContents) -> list[tuple[str, str]]:
         *_material(case),
         *_geometry(case),
         *light_problems(case),
+        *electron_problems(case),
         *_unread_keys(case),
         *_idle_keys(case),
         *_points(case),

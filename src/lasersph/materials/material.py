@@ -24,6 +24,7 @@ from lasersph.input import (
     refusal,
 )
 from lasersph.materials.caloric_curve import CaloricCurve
+from lasersph.materials.electrons import Electrons
 from lasersph.materials.enthalpy import build_curve
 from lasersph.materials.optics import NoOptics, Optics
 from lasersph.materials.property import Law, Property
@@ -102,6 +103,11 @@ class Material(Model):
     melting: Melting | None = Field(default=None, description="where and with which heat it melts")
     vaporization: Vaporization | None = Field(default=None, description="the same of boiling")
     optics: Optics | None = Field(default=None, description="how its surface takes up light")
+    electrons: Electrons | None = Field(
+        default=None,
+        exclude_if=lambda given: given is None,
+        description="what a run with two temperatures must know of its electrons",
+    )
 
     @model_validator(mode="after")
     def _check_values(self) -> Material:

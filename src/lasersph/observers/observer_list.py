@@ -13,6 +13,7 @@ from lasersph.observers.energy_budget import EnergyBudget
 from lasersph.observers.flow_cells import FlowCells
 from lasersph.observers.flow_extrema import FlowExtrema
 from lasersph.observers.flow_speed import FlowSpeed
+from lasersph.observers.hot_electrons import HotElectrons
 from lasersph.observers.matter_motion import MatterMotion
 from lasersph.observers.melt_pool import MeltPool
 from lasersph.observers.observer import Observer, Row
@@ -33,6 +34,7 @@ OBSERVERS: tuple[type[Observer], ...] = (
     Steps,
     Pulses,
     SurfaceTemperature,
+    HotElectrons,
     MeltPool,
     Vaporization,
     Crater,
@@ -129,6 +131,7 @@ def heat_observers(
     dimension: int,
     *,
     amount_dimension: int | None = None,
+    has_electrons: bool = False,
     pulses: Pulses | None = None,
     probes: Sequence[Probe] = (),
     iterations: Sequence[str] = (),
@@ -138,6 +141,7 @@ def heat_observers(
     Args:
         dimension: 1, 2 or 3. amount_dimension: dimensions that energies cover, 3 of a section
             (r, z); the same where it is not given.
+        has_electrons: whether they have a temperature of their own.
         pulses: of a train; None of a single one or without light.
         probes: points whose temperature is recorded.
         iterations: names of the solver parts that count iterations.
@@ -146,6 +150,7 @@ def heat_observers(
         [
             Steps(tuple(iterations)),
             SurfaceTemperature(),
+            *((HotElectrons(amount_dimension or dimension),) if has_electrons else ()),
             MeltPool(dimension, is_section=(amount_dimension or dimension) > dimension),
             Vaporization(),
             EnergyBudget(amount_dimension or dimension),
@@ -159,6 +164,7 @@ def flow_observers(
     dimension: int,
     *,
     amount_dimension: int | None = None,
+    has_electrons: bool = False,
     box: bool = False,
     topography: Topography | None = None,
     pulses: Pulses | None = None,
@@ -168,7 +174,8 @@ def flow_observers(
     """Observers of every run with flow: those of heat, and of the flow.
 
     Args:
-        dimension, amount_dimension, pulses, probes, iterations: as of `heat_observers`.
+        dimension, amount_dimension, has_electrons, pulses, probes, iterations: as of
+            `heat_observers`.
         box: a closed box that is all liquid has no melt pool, but center lines and heat through
             its walls.
         topography: of a surface that moves; None where it is flat.
@@ -177,6 +184,7 @@ def flow_observers(
     observed = heat_observers(
         dimension,
         amount_dimension=covered,
+        has_electrons=has_electrons,
         pulses=pulses,
         probes=probes,
         iterations=iterations,

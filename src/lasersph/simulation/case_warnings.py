@@ -10,8 +10,10 @@ import numpy as np
 from lasersph.case import Case
 from lasersph.case.quick import what_is_not_shown
 from lasersph.case.solver_choice import (
+    allows_two_temperatures,
     chooses_vaporization,
     computes_flow,
+    has_two_temperatures,
     missing_for_flux,
     wants_vapor_flux,
 )
@@ -248,6 +250,8 @@ def _vapor(case: Case, heating: HeatingForecast) -> Iterator[str]:
 
 def _electrons(case: Case, curve: CaloricCurve, heating: HeatingForecast) -> Iterator[str]:
     """How long electrons are hotter than the lattice, where a pulse is not much longer."""
+    if has_two_temperatures(case.solver):
+        return
     material, pulse = case.material, pulse_duration(case)
     # A metal without data for its electrons is judged by the one that couples them most weakly.
     electrons = electrons_of(material.name)
@@ -268,5 +272,15 @@ def _electrons(case: Case, curve: CaloricCurve, heating: HeatingForecast) -> Ite
     yield (
         f"electrons are hotter than the lattice for about {format_quantity(time, 's', 2)}{bound}, "
         f"{than} the pulse of {format_quantity(pulse, 's', 3)}: this run has one temperature, and "
-        "its heat, melt and vapor are not those of such a pulse"
+        f"its heat, melt and vapor are not those of such a pulse; {_two_temperatures(case)}"
     )
+
+
+def _two_temperatures(case: Case) -> str:
+    """What would compute both temperatures, for this metal and solver."""
+    model = 'heat = "two-temperature" in [solver] computes both'
+    if not allows_two_temperatures(case.solver):
+        return f'{model}, with kind = "conduction"'
+    if case.material.electrons is None:
+        return f"{model}, and needs heat_capacity and coupling in [material.electrons]"
+    return model

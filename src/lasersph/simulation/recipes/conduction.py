@@ -10,14 +10,18 @@ import numpy as np
 
 from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
+from lasersph.lasers import Laser
 from lasersph.lasers.pulses import PulseTrain
 from lasersph.observers import Observers, heat_observers
+from lasersph.observers.electron_view import ElectronView
 from lasersph.observers.view import View
 from lasersph.particles.filling import Filling
 from lasersph.simulation.recipes.recipe import Recipe, RunStage, SolverT, StepForecast
 from lasersph.solvers.conduction.body import assemble
+from lasersph.solvers.conduction.electron_body import with_electrons
 from lasersph.solvers.conduction.settings import ConductionSettings
 from lasersph.solvers.conduction.solver import Conduction, next_light
+from lasersph.solvers.conduction.two_temperatures import TwoTemperatures
 from lasersph.solvers.heat_settings import HeatSettings
 from lasersph.solvers.step_control import name_of_longest
 
@@ -50,12 +54,15 @@ class HeatRecipe(Recipe[HeatT, SolverT]):
             layers=self.layers,
             boundaries=case.boundaries,
             material=case.material,
-            laser=case.laser,
+            laser=self.light,
             curve=self.curve,
             use_second_moment=settings.weights == "second-moment",
         )
         pressure = case.boundaries.pressure_of_surroundings if settings.has_vapor_flux else 0.0
-        return Conduction(
+        solver: type[Conduction] = Conduction
+        if settings.has_two_temperatures:
+            solver, body = TwoTemperatures, with_electrons(body)
+        return solver(
             body,
             settings,
             case.time,
@@ -64,6 +71,14 @@ class HeatRecipe(Recipe[HeatT, SolverT]):
             recedes=recedes,
             end_of_pulse=case.end_of_pulse,
         )
+
+    @property
+    def light(self) -> Laser | None:
+        """The laser, whose light hot electrons carry deeper than it reaches."""
+        laser, material = self.case.laser, self.case.material
+        if laser is None or not self.settings.has_two_temperatures or not material.electrons:
+            return laser
+        return laser.carried_by(material, material.electrons.ballistic_range or 0.0)
 
     def heat_view(
         self, solver: Any, step: int, limit: str, fetch: Callable[[Array], np.ndarray]
@@ -88,7 +103,17 @@ class HeatRecipe(Recipe[HeatT, SolverT]):
             "liquidus": body.curve.liquidus,
             "vaporization": body.curve.vaporization,
             "critical": self.critical_temperature,
+            "electrons": self.electrons(particles, fetch),
         }
+
+    def electrons(
+        self, particles: Any, fetch: Callable[[Array], np.ndarray]
+    ) -> ElectronView | None:
+        """Electrons of `View`; None in a run with one temperature."""
+        if not self.settings.has_two_temperatures:
+            return None
+        T, energy = (fetch(particles[f"electron_{name}"]) for name in ("temperature", "energy"))
+        return ElectronView(T, energy)
 
     @property
     def critical_temperature(self) -> float | None:
@@ -114,6 +139,7 @@ class HeatRecipe(Recipe[HeatT, SolverT]):
         return heat_observers(
             self.settings.dimensions,
             amount_dimension=self.case.geometry.amount_dimension,
+            has_electrons=self.settings.has_two_temperatures,
             pulses=self.pulse_observer(),
             probes=self.case.probes,
             iterations=iterations,
