@@ -13,19 +13,11 @@ if TYPE_CHECKING:
 TWO = 'heat = "two-temperature"'
 LONGEST = 0.1
 """Longest step over the pulse that may be asked for. Guard: light would be jumped over."""
-KEYS = {"step_error": 0.01, "equal_within": 0.01}
-"""Keys of [solver] that two temperatures alone read, with their defaults."""
 
 
 def electron_problems(case: CaseContents) -> Iterator[tuple[str, str]]:
     """(key, "what is wrong; what would be right") of all that concerns hot electrons."""
     solver = case.solver
-    if not getattr(solver, "has_two_temperatures", False):
-        for key, default in KEYS.items():
-            if getattr(solver, key, default) != default:
-                yield (f"solver.{key}", f"belongs to {TWO}; leave it out or write that")
-        return
-
     # data of the metal
     if case.material.electrons is None:
         yield (

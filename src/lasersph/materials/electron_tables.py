@@ -16,8 +16,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lasersph.materials.caloric_curve import CaloricCurve
-from lasersph.materials.electrons import Electrons
 from lasersph.materials.material import Material
+from lasersph.materials.sections import Electrons
 
 Array = NDArray[np.float64]
 

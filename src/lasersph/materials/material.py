@@ -24,11 +24,10 @@ from lasersph.input import (
     refusal,
 )
 from lasersph.materials.caloric_curve import CaloricCurve
-from lasersph.materials.electrons import Electrons
 from lasersph.materials.enthalpy import build_curve
 from lasersph.materials.optics import NoOptics, Optics
 from lasersph.materials.property import Law, Property
-from lasersph.materials.sections import Melting, Vaporization
+from lasersph.materials.sections import Electrons, Melting, Vaporization
 from lasersph.materials.surface_tension import SurfaceTensionLaw
 
 Array = NDArray[np.float64]

@@ -61,7 +61,7 @@ def scattered_conductivity(k, T_e, T_l, ratio):
     """k_e [W/(m K)] from that at equal temperatures [Ivanov2003, eq. (4)].
 
     Args:
-        ratio: A/B [1/K], see `materials.electrons`.
+        ratio: A/B [1/K], see `materials.sections.Electrons`.
     """
     return k * (T_e / T_l) * (1.0 + ratio * T_l) / (1.0 + ratio * T_e * T_e / T_l)
 
@@ -153,7 +153,7 @@ def lattice_energy_taken(total, P, gained, q, a, b, s):
     return taken, abs(taken), walls
 
 
-def take(h, e, new_e, taken, m):
+def total_enthalpy(h, e, new_e, taken, m):
     """h of electrons and lattice after the step [J/kg]."""
     return h - e + taken / m + new_e
 

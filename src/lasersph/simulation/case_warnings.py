@@ -277,7 +277,7 @@ def _electrons(case: Case, curve: CaloricCurve, heating: HeatingForecast) -> Ite
 
 
 def _two_temperatures(case: Case) -> str:
-    """What would compute both temperatures, for this metal and solver."""
+    """Say how to compute both temperatures, for this metal and solver."""
     model = 'heat = "two-temperature" in [solver] computes both'
     if not allows_two_temperatures(case.solver):
         return f'{model}, with kind = "conduction"'

@@ -157,7 +157,7 @@ class ElectronStep:
         backend.pointwise(terms.give, fields, (part.e, v["gained"]))
         walls += self._heat_lattice(e, h, s)
         fields = {"h": h, "e": e, "new_e": part.e, "taken": v["taken"]}
-        backend.pointwise(terms.take, fields | {"m": body.particles["mass"]}, part.h)
+        backend.pointwise(terms.total_enthalpy, fields | {"m": body.particles["mass"]}, part.h)
         lit = energies(body.light, absorbed)
         names = ("incident", "reflected", "transmitted", "absorbed")
         return {name: lit[name] for name in names} | {
