@@ -23,6 +23,7 @@ from lasersph.output.settings import DEFAULT_COUNT
 from lasersph.particles.layers import LEAST_BESIDE, Layers
 from lasersph.physics.ablation_estimates import PHASE_EXPLOSION
 from lasersph.physics.electron_lattice import SLOWEST, coupling_time, electrons_of
+from lasersph.simulation.layers import electron_reach
 from lasersph.simulation.heating import HeatingForecast
 
 FEWEST_SPACINGS = 2.0
@@ -124,8 +125,10 @@ def pulse_duration(case: Case) -> float:
 
 
 def penetration_depth(case: Case) -> float:
-    """Thermal penetration of a pulse, sqrt(D t_p) [m] [Alshaer2017, eq. (34)]."""
-    return sqrt(case.material.diffusivity_reference * pulse_duration(case))
+    """Thermal penetration of a pulse, sqrt(D t_p) [m] [Alshaer2017, eq. (34)], or where hot
+    electrons carry heat further, their reach."""
+    heat = sqrt(case.material.diffusivity_reference * pulse_duration(case))
+    return max(heat, electron_reach(case))
 
 
 def _resolution(case: Case, layers: Layers) -> Iterator[str]:

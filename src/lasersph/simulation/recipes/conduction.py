@@ -21,16 +21,19 @@ from lasersph.solvers.conduction.body import assemble
 from lasersph.solvers.conduction.electron_body import with_electrons
 from lasersph.solvers.conduction.settings import ConductionSettings
 from lasersph.solvers.conduction.solver import Conduction, next_light
-from lasersph.solvers.conduction.two_temperatures import TwoTemperatures
+from lasersph.solvers.conduction.two_temperatures import LIGHT_SHARE, TwoTemperatures
 from lasersph.solvers.heat_settings import HeatSettings
 from lasersph.solvers.step_control import name_of_longest
 
 HeatT = TypeVar("HeatT", bound=HeatSettings)
 
-PRODUCTS = {"implicit": 6.0, "explicit": 2.0}
+PRODUCTS = {"implicit": 6.0, "explicit": 2.0, "two": 150.0}
 """Cost of a step of heat, in sums over all pairs: iterations of Newton and of conjugate gradients,
-or the two stages. Forecast: 2.4 Newton and 5.6 linear iterations of `dlip-steel --quick` over rows
+the two stages, or six linear solves of two temperatures. Forecast: 2.4 Newton and 5.6 linear iterations of `dlip-steel --quick` over rows
 that are partly inactive."""
+RELAXING = 0.05
+"""Step of two temperatures after the light, over the time since it. Forecast: `short-pulse-gold`
+takes 0.02 to 0.2."""
 EXACT_LIMIT = {1: 0.846, 2: 0.80, 3: 0.741}
 """Stable dt D / dx^2 of forward Euler and midpoint at h = 1.5 dx. Forecast: largest eigenvalues of
 the discrete Laplacian; the one of 2-D is interpolated."""
@@ -153,8 +156,8 @@ class HeatRecipe(Recipe[HeatT, SolverT]):
         Args:
             longest: step while the light is on [s]. shortest: while something flows [s].
         """
-        time = self.case.time
-        melt = self.melt
+        time, melt = self.case.time, self.melt
+        cooling = RELAXING if self.settings.has_two_temperatures else time.cooling
         end = self.case.end_of_pulse
         molten = (melt.start, melt.end) if melt is not None and self.flow else (np.nan, np.nan)
         found: list[tuple[str, float, int]] = []
@@ -166,7 +169,7 @@ class HeatRecipe(Recipe[HeatT, SolverT]):
             # cooling.
             step = next_light(pulse, now, longest)
             if lit_until > 0.0:
-                step = min(step, max(longest, time.cooling * (now - lit_until)))
+                step = min(step, max(longest, cooling * (now - lit_until)))
             is_lit = pulse.active(now, now + step)
             if is_lit:
                 lit_until = now + step
@@ -187,6 +190,8 @@ class HeatRecipe(Recipe[HeatT, SolverT]):
 
     def products_of(self, _stage: str) -> float:
         """Cost of a step, see `RunStage`."""
+        if self.settings.has_two_temperatures:
+            return PRODUCTS["two"]
         return PRODUCTS["explicit" if self.settings.is_explicit else "implicit"]
 
     def implicit_forecast(self, flow_limits: dict[str, float]) -> StepForecast:
@@ -196,6 +201,8 @@ class HeatRecipe(Recipe[HeatT, SolverT]):
 
         # Without light a thousandth of the run, else half of what resolves the pulse.
         longest = time.step or (1e-3 * time.end if laser is None else 0.5 * laser.pulse.resolution)
+        if laser is not None and self.settings.has_two_temperatures:
+            longest = time.step or LIGHT_SHARE * 100.0 * laser.pulse.resolution
         limits[name_of_longest(laser is not None)] = longest
         shortest = min(limits.values())
 
