@@ -196,7 +196,7 @@ class Material(Model):
                 if law.uncertainty is not None:
                     key = home if phase == "all" else f"{home}.{phase}"
                     found[key] = (law.relative_uncertainty, law.uncertainty.source)
-        for home in ("melting", "vaporization", "optics"):
+        for home in ("melting", "vaporization", "optics", "electrons"):
             section = getattr(self, home)
             for name, given in (section.uncertainty if section else {}).items():
                 found[f"{home}.{name}"] = (section.relative_uncertainty(name), given.source)

@@ -23,8 +23,8 @@ from lasersph.output.settings import DEFAULT_COUNT
 from lasersph.particles.layers import LEAST_BESIDE, Layers
 from lasersph.physics.ablation_estimates import PHASE_EXPLOSION
 from lasersph.physics.electron_lattice import SLOWEST, coupling_time, electrons_of
-from lasersph.simulation.layers import electron_reach
 from lasersph.simulation.heating import HeatingForecast
+from lasersph.simulation.layers import electron_reach
 
 FEWEST_SPACINGS = 2.0
 """Spacings in the length over which light changes along the surface. Forecast: 12 of them make a
