@@ -6,6 +6,7 @@ import pytest
 from bad_ablation_cases import BAD_ABLATION_CASES
 from bad_cases import BAD_CASES
 from bad_ejection_cases import BAD_EJECTION_CASES
+from bad_electron_cases import BAD_ELECTRON_CASES
 from bad_flow_cases import BAD_FLOW_CASES
 from bad_geometry_cases import BAD_GEOMETRY_CASES
 
@@ -18,7 +19,7 @@ GOOD_FLOW = (FOLDER / "good-flow.toml").read_text(encoding="utf-8")
 GOOD_SPOT = (FOLDER / "good-spot.toml").read_text(encoding="utf-8")
 GOOD_ABLATION = (FOLDER / "good-ablation.toml").read_text(encoding="utf-8")
 MATTER = BAD_ABLATION_CASES | BAD_EJECTION_CASES
-ALL = BAD_CASES | BAD_FLOW_CASES | BAD_GEOMETRY_CASES | MATTER
+ALL = BAD_CASES | BAD_ELECTRON_CASES | BAD_FLOW_CASES | BAD_GEOMETRY_CASES | MATTER
 
 
 def spoiled(name: str) -> bytes:
@@ -40,7 +41,7 @@ def test_there_are_enough_and_the_good_one_is_good(tmp_path):
     assert len(BAD_CASES) >= 40 and len(ALL) == sum(
         len(table)
         for table in (
-            *(BAD_CASES, BAD_FLOW_CASES, BAD_GEOMETRY_CASES),
+            *(BAD_CASES, BAD_ELECTRON_CASES, BAD_FLOW_CASES, BAD_GEOMETRY_CASES),
             *(BAD_ABLATION_CASES, BAD_EJECTION_CASES),
         )
     )

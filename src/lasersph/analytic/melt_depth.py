@@ -378,9 +378,9 @@ def _cell_faces(light: float, span: float, alpha: float, diffusivity: float, n: 
     diffused = np.sqrt(diffusivity * light)
     finest = np.clip(0.25 / alpha, 2e-3 * diffused, 0.05 * diffused)
     deepest = 5.0 * np.sqrt(diffusivity * span) + 10.0 / alpha
-    # bisection for the growth with which n cells reach the depth
-    low, high = 1.0, 2.0
-    for _ in range(60):
+    # bisection for the growth with which n cells reach the depth; none where even ones do
+    low, high, growth = 1.0, 2.0, 1.0
+    for _ in range(60 if n * finest < deepest else 0):
         growth = 0.5 * (low + high)
         total = finest * np.expm1(n * np.log(growth)) / (growth - 1.0)
         low, high = (growth, high) if total < deepest else (low, growth)

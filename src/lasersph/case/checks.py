@@ -17,7 +17,13 @@ from lasersph.case.size import (
     memories,
     size_of,
 )
-from lasersph.case.solver_choice import SELECTIVE_KEYS, moves_matter, no_axis, reader_of
+from lasersph.case.solver_choice import (
+    SELECTIVE_KEYS,
+    has_two_temperatures,
+    moves_matter,
+    no_axis,
+    reader_of,
+)
 from lasersph.case.surface_checks import key_of_drive, surface_problems
 from lasersph.input import CaseError, Model, format_quantity
 from lasersph.output.settings import SnapshotSchedule
@@ -32,6 +38,8 @@ USUAL_WIDTH = 5e-6
 IMPLICIT_STEPS = ("temperature_change", "cooling", "growth")
 IMPLICIT_SOLUTION = ("tolerance", "iteration")
 """Keys of [time] and [solver] that implicit steps alone read."""
+TWO_TEMPERATURES = ("step_error", "equal_within")
+"""Keys of [solver] that two temperatures alone read."""
 GRADED = ("fine_depth", "fine_width", "coarsest", "ratio")
 """Keys of [particles] that graded ones alone read."""
 
@@ -46,6 +54,7 @@ def problems_of(case: CaseContents) -> list[tuple[str, str]]:
         *_material(case),
         *_geometry(case),
         *light_problems(case),
+        *_electrons(case),
         *_unread_keys(case),
         *_idle_keys(case),
         *_points(case),
@@ -64,6 +73,17 @@ def _geometry(case: CaseContents) -> Iterator[tuple[str, str]]:
         from lasersph.case.geometry_checks import section_problems  # planar blocks read less
 
         yield from section_problems(case)
+
+
+def _electrons(case: CaseContents) -> Iterator[tuple[str, str]]:
+    """Problems of two temperatures; with one, keys that belong to two."""
+    if has_two_temperatures(case.solver):
+        from lasersph.case.electron_checks import electron_problems  # most cases have one
+
+        yield from electron_problems(case)
+        return
+    why = 'belongs to heat = "two-temperature"; leave it out or write that'
+    yield from ((f"solver.{key}", why) for key in _changed(case.solver, TWO_TEMPERATURES))
 
 
 def _motion(case: CaseContents) -> Iterator[tuple[str, str]]:

@@ -27,10 +27,12 @@ from lasersph.materials.material import VISCOSITIES
 
 SET_HERE = "set in the case"
 UNNAMED = "of the case"
-SECTIONS = ("melting", "vaporization", "optics")
+SECTIONS = ("melting", "vaporization", "optics", "electrons")
+LAWS = ("reflectivity", "heat_capacity", "coupling", "conductivity")
+"""Keys of sections that are laws, with a source of their own."""
 UNSOURCED = ("source", "note", "uncertainty")
-SOURCED_BELOW = ("reflectivity", "by_wavelength")
-"""Keys of optics whose laws and tables have sources of their own."""
+SOURCED_BELOW = (*LAWS, "by_wavelength")
+"""Keys of sections whose laws and tables have sources of their own."""
 PLAIN = ("name", "title", "composition", "note", "reference_temperature", "sulfur")
 
 
@@ -146,7 +148,7 @@ def _changed_section(section: dict[str, Any], changes: dict[str, Any]) -> dict[s
     for key, value in changes.items():
         if value is None:
             continue
-        if key == "reflectivity":
+        if key in LAWS:
             merged[key] = _sourced(value)
         elif key == "by_wavelength" and isinstance(value, dict):
             tables = {name: _sourced(table) for name, table in value.items()}

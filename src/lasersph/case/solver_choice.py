@@ -61,6 +61,16 @@ def chooses_vaporization(solver: SolverSettings) -> TypeGuard[HeatSettings]:
     return "vaporization" in type(solver).model_fields
 
 
+def allows_two_temperatures(solver: SolverSettings) -> TypeGuard[HeatSettings]:
+    """Whether a solver can have a temperature for the electrons and one for the lattice."""
+    return "heat" in type(solver).model_fields
+
+
+def has_two_temperatures(solver: SolverSettings) -> bool:
+    """Whether it has them."""
+    return allows_two_temperatures(solver) and solver.has_two_temperatures
+
+
 def with_vaporization(solver: SolverSettings, material: Material) -> SolverSettings:
     """The settings with `vaporization` said, where the case does not.
 

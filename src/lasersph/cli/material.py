@@ -93,6 +93,11 @@ def _draw(material: Material, file: Path) -> None:
     print(f"drew {plot_material(material, file)}")
 
 
+HOT_ELECTRONS = 3e4
+"""Temperature up to which laws of electrons without an end are shown [K]. Display: that at which
+the shipped tables end."""
+
+
 def _values(material: Material, name: str, law: Law[Any]) -> str:
     """Value, or the values at both ends of the range in which the material needs the law."""
     from lasersph.materials.checking import LIQUID_ONLY, UNITS
@@ -143,6 +148,7 @@ def _rows(material: Material) -> list[tuple[str, str, str, str]]:
             },
         ),
         ("optics", {"absorption_coefficient": "1/m", "wavelength": "m", "emissivity": ""}),
+        ("electrons", {"scattering": "1/K", "lattice_share": "", "ballistic_range": "m"}),
     ):
         section = getattr(material, group)
         for name, unit in units.items():
@@ -150,9 +156,24 @@ def _rows(material: Material) -> list[tuple[str, str, str, str]]:
             if isinstance(number, float):
                 source = section.source_of(name)
                 rows.append((f"{group}, {name}", f"{number:.5g} {unit}".strip(), "", source))
-    # Optics by wavelength; text in a cell stays on one line.
+    # Laws of the electrons, optics by wavelength; text in a cell stays on one line.
+    rows += _electron_rows(material)
     rows += _spectral_rows(material)
     return [tuple(" ".join(cell.split()) for cell in row) for row in rows]  # pyright: ignore[reportReturnType]
+
+
+def _electron_rows(material: Material) -> list[tuple[str, str, str, str]]:
+    """Laws of the electrons over their temperature."""
+    if material.electrons is None:
+        return []
+    rows = []
+    for name, unit in {"heat_capacity": "J/(m^3 K)", "coupling": "W/(m^3 K)"}.items():
+        law: Law[Any] = getattr(material.electrons, name)
+        ends = max(law.lower, material.reference_temperature), min(law.upper, HOT_ELECTRONS)
+        values = [f"{float(law.at(T)):.4g}" for T in ends]
+        text = values[0] if law.is_constant else " ... ".join(values)
+        rows.append((f"electrons, {name}", f"{text} {unit}", _span(law), law.source))
+    return rows
 
 
 def _spectral_rows(material: Material) -> list[tuple[str, str, str, str]]:

@@ -32,9 +32,11 @@ Spacings = Annotated[
     str, typer.Option("--spacing", metavar="A,B,C", help="Three or more, e.g. 32nm,16nm,8nm.")
 ]
 Of = Annotated[
-    Literal["melt", "vaporize", "ablate"],
+    Literal["melt", "vaporize", "ablate", "explode"],
     typer.Option(
-        "--of", help="Completely molten somewhere, the boiling point reached, or matter ejected."
+        "--of",
+        help="Completely molten somewhere, the boiling point reached, matter ejected, or 0.9 of "
+        "the critical temperature reached.",
     ),
 ]
 Tolerance = Annotated[
@@ -128,6 +130,12 @@ def threshold(
     section = loaded.material.melting if of == "melt" else loaded.material.vaporization
     if section is None or not (loaded.solver.phase_change or of == "ablate"):
         raise WrongCommand(f"{loaded.name} computes no phase change to {of}, so no threshold")
+
+    if of == "explode" and getattr(loaded.solver, "plateau", "") != "evaporate":
+        raise WrongCommand(
+            "the boiling point is held, so that nothing explodes; add "
+            "--set solver.plateau=evaporate"
+        )
 
     # Say the cost: bisection needs about as many runs as halvings.
     _refuse_missing_folder(json_file)

@@ -22,6 +22,7 @@ from lasersph.input.types import (
     Angle,
     Conductivity,
     Count,
+    Coupling,
     Density,
     Diffusivity,
     Energy,
@@ -50,6 +51,8 @@ from lasersph.input.types import (
     Time,
     Velocity,
     Viscosity,
+    VolumetricHeat,
+    VolumetricHeatSlope,
     quantity_kind,
 )
 
@@ -61,6 +64,7 @@ __all__ = [
     "CaseError",
     "Conductivity",
     "Count",
+    "Coupling",
     "Density",
     "Diffusivity",
     "Document",
@@ -94,6 +98,8 @@ __all__ = [
     "Time",
     "Velocity",
     "Viscosity",
+    "VolumetricHeat",
+    "VolumetricHeatSlope",
     "build",
     "did_you_mean",
     "dotted",

@@ -33,6 +33,7 @@ _NUMBER = re.compile(
 )
 _LIGHT = {"needs_one_of": frozenset({ENERGY, POWER}), "refuses": frozenset({FORCE})}
 _DIFFUSION = dimension(m=2, s=-1)
+_HEAT_SLOPE = dimension(m=-1, kg=1, s=-2, K=-2)
 _KELVIN = dimension(K=1)
 
 
@@ -144,6 +145,9 @@ _ALL = (
     Kind("absorption_coefficient", "1/m", "9.58e7 1/m", dimension(m=-1)),
     Kind("density", "kg/m^3", "2700 kg/m^3", dimension(m=-3, kg=1)),
     Kind("specific_heat", "J/(kg K)", "900 J/(kg K)", dimension(m=2, s=-2, K=-1)),
+    Kind("volumetric_heat", "J/(m^3 K)", "2.1e4 J/(m^3 K)", dimension(m=-1, kg=1, s=-2, K=-1)),
+    Kind("volumetric_heat_slope", "J/(m^3 K^2)", "71 J/(m^3 K^2)", _HEAT_SLOPE),
+    Kind("coupling", "W/(m^3 K)", "2.1e16 W/(m^3 K)", dimension(m=-1, kg=1, s=-3, K=-1)),
     Kind("conductivity", "W/(m K)", "167 W/(m K)", dimension(m=1, kg=1, s=-3, K=-1)),
     Kind("diffusivity", "m^2/s", "5.3e-6 m^2/s", _DIFFUSION),
     Kind("specific_energy", "J/kg", "397 kJ/kg", dimension(m=2, s=-2), frozenset({ENERGY})),

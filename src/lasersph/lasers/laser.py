@@ -18,6 +18,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from lasersph.lasers.absorption import BeerLambertAbsorption
 from lasersph.lasers.interference import InterferenceBeam
 from lasersph.lasers.laser_keys import LaserKeys
 from lasersph.lasers.path import LinearPath, path_quadrature
@@ -204,6 +205,20 @@ class Laser(LaserKeys):
             return self.absorption.absorption_coefficient
         optics = self._lit(material).optics
         return self.absorption.coefficient(optics.absorption_coefficient if optics else None)
+
+    def carried_by(self, material: Material, reach: float) -> Laser:
+        """The same light, absorbed over its depth and a range of electrons together.
+
+        alpha = 1 / (1/alpha_0 + range) [Hohlfeld2000]
+
+        Args:
+            reach: ballistic range of the electrons [m]; 0 changes nothing.
+        """
+        if reach == 0.0:
+            return self
+        depth = 1.0 / self.absorption_coefficient(material) + reach
+        absorption = BeerLambertAbsorption(absorption_coefficient=1.0 / depth)
+        return self.model_copy(update={"absorption": absorption})
 
     def _lit(self, material: Material) -> Material:
         """The metal with its optics for this light.

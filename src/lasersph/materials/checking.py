@@ -83,7 +83,7 @@ def _sources(material: Material) -> list[Finding]:
     )
     # sources of laws, then of single numbers, one text or one for each
     sources = [law.source for law in laws]
-    for section in (material.melting, material.vaporization):
+    for section in (material.melting, material.vaporization, material.electrons):
         given = section.source if section else ""
         sources += given.values() if isinstance(given, dict) else [given]
     count = sum(FROM_MEMORY in source for source in sources)

@@ -27,7 +27,7 @@ from lasersph.materials.caloric_curve import CaloricCurve
 from lasersph.materials.enthalpy import build_curve
 from lasersph.materials.optics import NoOptics, Optics
 from lasersph.materials.property import Law, Property
-from lasersph.materials.sections import Melting, Vaporization
+from lasersph.materials.sections import Electrons, Melting, Vaporization
 from lasersph.materials.surface_tension import SurfaceTensionLaw
 
 Array = NDArray[np.float64]
@@ -102,6 +102,11 @@ class Material(Model):
     melting: Melting | None = Field(default=None, description="where and with which heat it melts")
     vaporization: Vaporization | None = Field(default=None, description="the same of boiling")
     optics: Optics | None = Field(default=None, description="how its surface takes up light")
+    electrons: Electrons | None = Field(
+        default=None,
+        exclude_if=lambda given: given is None,
+        description="what a run with two temperatures must know of its electrons",
+    )
 
     @model_validator(mode="after")
     def _check_values(self) -> Material:
@@ -191,7 +196,7 @@ class Material(Model):
                 if law.uncertainty is not None:
                     key = home if phase == "all" else f"{home}.{phase}"
                     found[key] = (law.relative_uncertainty, law.uncertainty.source)
-        for home in ("melting", "vaporization", "optics"):
+        for home in ("melting", "vaporization", "optics", "electrons"):
             section = getattr(self, home)
             for name, given in (section.uncertainty if section else {}).items():
                 found[f"{home}.{name}"] = (section.relative_uncertainty(name), given.source)

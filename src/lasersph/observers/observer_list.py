@@ -13,6 +13,7 @@ from lasersph.observers.energy_budget import EnergyBudget
 from lasersph.observers.flow_cells import FlowCells
 from lasersph.observers.flow_extrema import FlowExtrema
 from lasersph.observers.flow_speed import FlowSpeed
+from lasersph.observers.hot_electrons import HotElectrons
 from lasersph.observers.matter_motion import MatterMotion
 from lasersph.observers.melt_pool import MeltPool
 from lasersph.observers.observer import Observer, Row
@@ -34,6 +35,7 @@ OBSERVERS: tuple[type[Observer], ...] = (
     Steps,
     Pulses,
     SurfaceTemperature,
+    HotElectrons,
     MeltPool,
     PoolCount,
     Vaporization,
@@ -132,6 +134,7 @@ def heat_observers(
     *,
     amount_dimension: int | None = None,
     periodic: tuple[bool, bool] | None = None,
+    has_electrons: bool = False,
     pulses: Pulses | None = None,
     probes: Sequence[Probe] = (),
     iterations: Sequence[str] = (),
@@ -141,7 +144,8 @@ def heat_observers(
     Args:
         dimension: 1, 2 or 3. amount_dimension: dimensions that energies cover, 3 of a section
             (r, z); the same where it is not given. periodic: whether x and y repeat in 3-D, where
-            pools are counted; None counts none.
+            pools are counted; None counts none. has_electrons: whether they have a temperature of
+            their own.
         pulses: of a train; None of a single one or without light.
         probes: points whose temperature is recorded.
         iterations: names of the solver parts that count iterations.
@@ -150,6 +154,7 @@ def heat_observers(
         [
             Steps(tuple(iterations)),
             SurfaceTemperature(),
+            *((HotElectrons(amount_dimension or dimension),) if has_electrons else ()),
             MeltPool(dimension, is_section=(amount_dimension or dimension) > dimension),
             *((PoolCount(periodic),) if dimension == 3 and periodic is not None else ()),
             Vaporization(),
@@ -165,6 +170,7 @@ def flow_observers(
     *,
     amount_dimension: int | None = None,
     periodic: tuple[bool, bool] | None = None,
+    has_electrons: bool = False,
     box: bool = False,
     topography: Topography | None = None,
     pulses: Pulses | None = None,
@@ -174,7 +180,8 @@ def flow_observers(
     """Observers of every run with flow: those of heat, and of the flow.
 
     Args:
-        dimension, amount_dimension, periodic, pulses, probes, iterations: as of `heat_observers`.
+        dimension, amount_dimension, periodic, has_electrons, pulses, probes, iterations: as of
+            `heat_observers`.
         box: a closed box that is all liquid has no melt pool, but center lines and heat through
             its walls.
         topography: of a surface that moves; None where it is flat.
@@ -184,6 +191,7 @@ def flow_observers(
         dimension,
         amount_dimension=covered,
         periodic=periodic,
+        has_electrons=has_electrons,
         pulses=pulses,
         probes=probes,
         iterations=iterations,

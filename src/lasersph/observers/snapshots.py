@@ -10,6 +10,7 @@ from lasersph.particles.fields import FIELDS
 NAMES = (
     *("temperature", "mass", "enthalpy", "melt_fraction", "vapor_fraction", "width", "surface"),
     *("velocity", "speed", "pressure", "flows", "surface_temperature", "surface_gradient"),
+    *("electron_temperature", "electron_energy"),
     *("surface_velocity", "lid_pressure", "density", "vapor_pressure", "normal", "stage"),
 )
 """Fields of a snapshot; each solver writes those that it has."""
@@ -37,6 +38,10 @@ def snapshot_fields(view: View) -> dict[str, np.ndarray]:
         "width": view.width,
     }
     marks = {"surface": surface}
+    # hot electrons
+    if view.electrons is not None:
+        fields["electron_temperature"] = view.electrons.temperature
+        fields["electron_energy"] = view.electrons.energy
     # a flow has fields of its own, at the surface as well
     if view.flow is not None:
         flow = view.flow

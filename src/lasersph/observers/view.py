@@ -14,6 +14,7 @@ import numpy as np
 
 from lasersph.observers.ablation_view import AblationView
 from lasersph.observers.area_relief import AreaRelief
+from lasersph.observers.electron_view import ElectronView
 from lasersph.observers.flow_view import FlowView
 from lasersph.observers.relief import Relief
 
@@ -51,6 +52,7 @@ class View:
             their sum is 1; in a section (r, z) those of rings.
         relief: heights of the surface by columns, over x or, in 3-D, over x and y; None where it
             stays flat.
+        electrons: temperature and energy of hot electrons; None in a run with one temperature.
         flow: velocity, pressure and what belongs to them; None in a run without flow.
         ablation: crater and ejecta; None in a run without ablation.
     """
@@ -85,12 +87,14 @@ class View:
     evaporated: np.ndarray | None = None
     column_share: np.ndarray | None = None
     relief: Relief | AreaRelief | None = None
+    electrons: ElectronView | None = None
     flow: FlowView | None = None
     ablation: AblationView | None = None
 
     def __getattr__(self, name: str) -> NoReturn:
         """Say where a quantity is that belongs to one of the parts. Raises AttributeError."""
         parts = {"flow": FlowView, "relief": Relief, "ablation": AblationView}
+        parts |= {"electrons": ElectronView}
         # a quantity of a part is told as such, with the view that has it
         found = [f"view.{part}.{name}" for part, kind in parts.items() if name in names_of(kind)]
         if found:

@@ -76,6 +76,14 @@ HEAT = _table(
         "of it, what the metal below the surface has followed",
         is_kept=True,
     ),
+    Field(
+        "electron_energy",
+        "e",
+        "J/kg",
+        "energy of the electrons above that at the initial temperature, a part of the enthalpy",
+        is_kept=True,
+    ),
+    Field("electron_temperature", "T_e", "K", "temperature of the electrons"),
     Field("absorbed_light", "E", "J", "light absorbed in the step"),
 )
 # flow of a liquid

@@ -42,6 +42,18 @@ flux that falls again near the critical point is seen in steps of 0.5 % of the r
 end at rounding."""
 
 
+def skin_fluence(depth: float, heat: float, absorptivity: float) -> float:
+    """Incident fluence that brings a skin of metal the energy of vaporization [J/m^2].
+
+    F = rho h_v d / A: as much as it takes, were all of the light to stay in the skin.
+
+    Args:
+        depth: of the skin d [m]. heat: rho h_v, from the initial temperature to vapor [J/m^3].
+            absorptivity: share of the light that is absorbed A.
+    """
+    return heat * depth / absorptivity
+
+
 def light_left(depth: float, absorption_coefficient: float) -> float:
     """Share of the light that is left at a depth, exp(-alpha z) [Alshaer2017, eqs. (3), (4)]."""
     return exp(-absorption_coefficient * depth)

@@ -38,6 +38,13 @@ PANELS = (
     Panel("surface_tension_slope", r"$d\gamma/dT$ [mN/(m K)]", 1e3, True),
     Panel("reflectivity", r"reflectivity $R$ [1]", 1.0),
 )
+HOT_PANELS = (
+    Panel("heat_capacity", r"electrons: $C_e$ [MJ/(m$^3$ K)]", 1e-6),
+    Panel("coupling", r"electrons: $G$ [10$^{17}$ W/(m$^3$ K)]", 1e-17),
+)
+"""Laws of the temperature of the electrons."""
+HOTTEST = 3e4
+"""End of their panels [K]. Display: that of the shipped tables."""
 SLOPE = "surface_tension_slope"
 PHASES = {"solid": "#e9ecef", "melting": "#ffe3b3", "liquid": "#fdeedd"}
 LINE = "#1f4e79"
@@ -56,7 +63,8 @@ def material_figure(material: Material) -> Figure:
     panels = [
         panel for panel in PANELS if panel.name in properties or (panel.name == SLOPE and has_slope)
     ]
-    rows = -(-(len(panels) + 2) // COLUMNS)
+    count = len(panels) + 2 + (0 if material.electrons is None else len(HOT_PANELS))
+    rows = -(-count // COLUMNS)
     notes = _source_lines(material, panels)
     height = 2.9 * rows + 0.15 * len(notes) + 1.0
     figure = NotebookFigure(figsize=(11.0, height), layout=None)
@@ -75,6 +83,9 @@ def material_figure(material: Material) -> Figure:
         axes.text(-0.03, 1.02, f"[{number + 1}]", transform=axes.transAxes, **options)
     _draw_enthalpy(figure.add_subplot(grid[divmod(len(panels), COLUMNS)]), material, span)
     _write_numbers(figure.add_subplot(grid[divmod(len(panels) + 1, COLUMNS)]), material)
+    if material.electrons is not None:
+        for number, panel in enumerate(HOT_PANELS, start=len(panels) + 2):
+            _draw_electrons(figure.add_subplot(grid[divmod(number, COLUMNS)]), material, panel)
     figure.suptitle(material.title or material.name, x=0.075, y=1.0 - 0.2 / height, ha="left")
     options = {"fontsize": 7.5, "va": "top", "color": "0.25", "linespacing": 1.25}
     figure.text(0.075, (0.15 * len(notes) + 0.2) / height, "\n".join(notes), **options)
@@ -116,6 +127,18 @@ def _draw_property(axes: Axes, material: Material, panel: Panel, span: tuple[flo
         axes.set_ylim(*sorted((0.0, 1.6 * value)))
     axes.set_ylabel(panel.label, fontsize=9)
     axes.ticklabel_format(axis="y", useOffset=False)
+
+
+def _draw_electrons(axes: Axes, material: Material, panel: Panel) -> None:
+    """One law of the temperature of the electrons."""
+    law: Law[Any] = getattr(material.electrons, panel.name)
+    _draw_law(axes, law, (material.reference_temperature, HOTTEST), panel.factor)
+    axes.set_ylim(bottom=0.0)
+    axes.set_xlabel("temperature of the electrons [K]", fontsize=9)
+    axes.set_ylabel(panel.label, fontsize=9)
+    axes.tick_params(labelsize=8)
+    for side in ("top", "right"):
+        axes.spines[side].set_visible(False)
 
 
 def _draw_slope(axes: Axes, material: Material, panel: Panel, span: tuple[float, float]) -> None:
@@ -259,6 +282,10 @@ def _source_lines(material: Material, panels: list[Panel]) -> list[str]:
                 for phase, law in found.laws().items()
             ]
         text = f"[{number + 1}] " + "; ".join(parts)
+        lines += textwrap.wrap(text, 165, subsequent_indent="      ")
+    if material.electrons is not None:
+        laws = material.electrons.heat_capacity, material.electrons.coupling
+        text = "Electrons: " + "; ".join(law.source for law in laws)
         lines += textwrap.wrap(text, 165, subsequent_indent="      ")
     lines.append("")
     lines.append(

@@ -7,10 +7,12 @@ from math import isfinite
 
 from lasersph.case import Case
 from lasersph.case.size import in_words, memories
+from lasersph.case.solver_choice import has_two_temperatures
 from lasersph.input import format_duration, format_quantity
 from lasersph.input.text_table import text_table
 from lasersph.materials.viscosity import viscosity_text
-from lasersph.simulation.heating import HeatingForecast
+from lasersph.physics.ablation_estimates import skin_fluence
+from lasersph.simulation.heating import HeatingForecast, reflectivity_at
 from lasersph.simulation.light_text import heating_rows, light_rows
 from lasersph.simulation.recipes import FlowForecast
 
@@ -110,6 +112,10 @@ def _rows(expected: Forecast) -> list[tuple[str, str]]:
             text = ", ".join(f"{name} {value:.2g}" for name, value in numbers.items())
             rows.append(("numbers of the pool", text))
 
+    # Short pulses: what would vaporize the skin that the light heats at first.
+    if estimate := skin_estimate(case):
+        rows.append(("vaporizes its skin", f"from about {estimate:.2g} J/cm^2, by energy alone"))
+
     # Lengths that the particles must resolve.
     for name, length in (
         ("moving layer", expected.flow.layer if expected.flow else None),
@@ -146,3 +152,21 @@ def _losses(case: Case) -> str:
         parts.append(f"convection, {format_quantity(surroundings.convection, 'W/(m^2 K)')}")
     to = format_quantity(surroundings.temperature, "K")
     return f"{'; '.join(parts)}; to {to}" if parts else ""
+
+
+def skin_estimate(case: Case) -> float | None:
+    """Fluence that vaporizes the skin which light and the electrons' range heat [J/cm^2].
+
+    None with one temperature, and for a metal that does not boil.
+    """
+    electrons, vapor = case.material.electrons, case.material.vaporization
+    is_short = has_two_temperatures(case.solver) and case.laser is not None
+    if not is_short or electrons is None or vapor is None or case.laser is None:
+        return None
+    # from the initial temperature to vapor, over the depth of light and electrons
+    curve = case.material.caloric_curve(case.initial_temperature, "hold")
+    depth = 1.0 / case.laser.absorption_coefficient(case.material)
+    depth += electrons.ballistic_range or 0.0
+    heat = case.material.density_reference * float(curve.enthalpy_vaporized or 0.0)
+    absorptivity = 1.0 - reflectivity_at(case, case.initial_temperature)
+    return 1e-4 * skin_fluence(depth, heat, absorptivity)

@@ -10,8 +10,10 @@ import numpy as np
 from lasersph.case import Case
 from lasersph.case.quick import what_is_not_shown
 from lasersph.case.solver_choice import (
+    allows_two_temperatures,
     chooses_vaporization,
     computes_flow,
+    has_two_temperatures,
     missing_for_flux,
     wants_vapor_flux,
 )
@@ -22,6 +24,7 @@ from lasersph.particles.layers import LEAST_BESIDE, Layers
 from lasersph.physics.ablation_estimates import PHASE_EXPLOSION
 from lasersph.physics.electron_lattice import SLOWEST, coupling_time, electrons_of
 from lasersph.simulation.heating import HeatingForecast
+from lasersph.simulation.layers import electron_reach
 
 FEWEST_SPACINGS = 2.0
 """Spacings in the length over which light changes along the surface. Forecast: 12 of them make a
@@ -132,8 +135,10 @@ def pulse_duration(case: Case) -> float:
 
 
 def penetration_depth(case: Case) -> float:
-    """Thermal penetration of a pulse, sqrt(D t_p) [m] [Alshaer2017, eq. (34)]."""
-    return sqrt(case.material.diffusivity_reference * pulse_duration(case))
+    """Thermal penetration of a pulse, sqrt(D t_p) [m] [Alshaer2017, eq. (34)], or where hot
+    electrons carry heat further, their reach."""
+    heat = sqrt(case.material.diffusivity_reference * pulse_duration(case))
+    return max(heat, electron_reach(case))
 
 
 def _resolution(case: Case, layers: Layers) -> Iterator[str]:
@@ -269,6 +274,8 @@ def _vapor(case: Case, heating: HeatingForecast) -> Iterator[str]:
 
 def _electrons(case: Case, curve: CaloricCurve, heating: HeatingForecast) -> Iterator[str]:
     """How long electrons are hotter than the lattice, where a pulse is not much longer."""
+    if has_two_temperatures(case.solver):
+        return
     material, pulse = case.material, pulse_duration(case)
     # A metal without data for its electrons is judged by the one that couples them most weakly.
     electrons = electrons_of(material.name)
@@ -289,5 +296,15 @@ def _electrons(case: Case, curve: CaloricCurve, heating: HeatingForecast) -> Ite
     yield (
         f"electrons are hotter than the lattice for about {format_quantity(time, 's', 2)}{bound}, "
         f"{than} the pulse of {format_quantity(pulse, 's', 3)}: this run has one temperature, and "
-        "its heat, melt and vapor are not those of such a pulse"
+        f"its heat, melt and vapor are not those of such a pulse; {_two_temperatures(case)}"
     )
+
+
+def _two_temperatures(case: Case) -> str:
+    """Say how to compute both temperatures, for this metal and solver."""
+    model = 'heat = "two-temperature" in [solver] computes both'
+    if not allows_two_temperatures(case.solver):
+        return f'{model}, with kind = "conduction"'
+    if case.material.electrons is None:
+        return f"{model}, and needs heat_capacity and coupling in [material.electrons]"
+    return model

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from lasersph.analytic.melt_depth import MeltEstimate, Vapor, melt_depth
 from lasersph.case import Case
 from lasersph.case.size import has_spot_in_the_middle
+from lasersph.case.solver_choice import has_two_temperatures
 from lasersph.irradiation.light import COLDEST, HOTTEST
 from lasersph.materials.caloric_curve import CaloricCurve
 from lasersph.particles.layers import Layers, stack
@@ -112,6 +113,18 @@ def fine_depth(case: Case, melt: MeltEstimate | None) -> float:
     return max(least, melt.safe_depth + 2.0 * case.particles.support_over_spacing * spacing)
 
 
+def electron_reach(case: Case) -> float:
+    """Depth to which hot electrons carry heat [m]: their ballistic range, and that of diffusion
+    while they couple, sqrt(k/G); 0 with one temperature."""
+    material = case.material
+    if material.electrons is None or not has_two_temperatures(case.solver):
+        return 0.0
+    cold = case.initial_temperature
+    coupling = float(material.electrons.coupling.at(cold))
+    spread = (float(material.conductivity_at(cold)) / coupling) ** 0.5
+    return (material.electrons.ballistic_range or 0.0) + spread
+
+
 def expected_melt(case: Case, vapor: Vapor | None = None) -> MeltEstimate | None:
     """How deep light will melt the case, and when; None without light or melting.
 
@@ -130,6 +143,10 @@ def expected_heating(case: Case, vapor: Vapor | None = None) -> MeltEstimate | N
     laser = case.laser
     if laser is None:
         return None
+    # Hot electrons spread the heat before the lattice has it.
+    if has_two_temperatures(case.solver):
+        laser = laser.carried_by(case.material, electron_reach(case))
+        case = case.model_copy(update={"laser": laser})
 
     # A pattern needs columns from a bright line to a dark one, half a period apart; a spot only the
     # one in its center.

@@ -45,6 +45,27 @@ class HeatSettings(SolverSettings):
     """Accuracy: the balance of a run closes to it or better, and the reference program of the
     texturing cases has the same."""
 
+    heat: Literal["one-temperature", "two-temperature"] = Field(
+        default="one-temperature",
+        exclude_if=lambda given: given == "one-temperature",
+        description="of electrons and lattice together, or of each by itself, as under pulses "
+        "shorter than some 100 ps; needs the metal's electrons",
+    )
+    step_error: Annotated[float, Field(gt=0, lt=0.5)] = Field(
+        default=0.01,
+        exclude_if=lambda given: given == 0.01,
+        description="with two temperatures: change of the temperatures where a step is halved, "
+        "over their rise, that bounds the steps",
+    )
+    """Accuracy: errors of a step are of second order, far below this change, which is of first."""
+    equal_within: Annotated[float, Field(gt=0, lt=0.5)] = Field(
+        default=0.01,
+        exclude_if=lambda given: given == 0.01,
+        description="with two temperatures: share of the lattice's within which they are one, "
+        "where no light comes",
+    )
+    """Accuracy: a hundredth of T in electrons that hold some 3 % of the heat moves T by 3e-4."""
+
     @model_validator(mode="after")
     def _check_plateau(self) -> HeatSettings:
         if self.has_vapor_flux and self.plateau != "hold":
@@ -55,6 +76,11 @@ class HeatSettings(SolverSettings):
                 )
             )
         return self
+
+    @property
+    def has_two_temperatures(self) -> bool:
+        """Whether electrons and lattice have a temperature each."""
+        return self.heat == "two-temperature"
 
     @property
     def curve_plateau(self) -> Literal["hold", "clip", "evaporate"]:

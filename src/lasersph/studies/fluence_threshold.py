@@ -17,9 +17,10 @@ from pathlib import Path
 from typing import Any, Literal
 
 from lasersph.lasers.laser_keys import AMOUNTS
+from lasersph.physics.ablation_estimates import PHASE_EXPLOSION
 from lasersph.studies.variation import Prepare, Run, changed, prepare_nothing, simulate
 
-Event = Literal["melt", "vaporize", "ablate"]
+Event = Literal["melt", "vaporize", "ablate", "explode"]
 UNITS = {
     "fluence": ("J/cm^2", 1e-4),
     "intensity": ("W/cm^2", 1e-4),
@@ -86,8 +87,9 @@ def threshold(
 
     Args:
         case: the case; its energy is the first guess.
-        of: "melt" (f_m = 1 somewhere), "vaporize" (T_v reached) or "ablate" (a particle left, so
-            that the threshold falls with the spacing).
+        of: "melt" (f_m = 1 somewhere), "vaporize" (T_v reached), "ablate" (a particle left, so
+            that the threshold falls with the spacing) or "explode" (0.9 of the critical
+            temperature reached, an estimate of ablation by short pulses).
         out: folder that receives the run folders of all trials.
         tolerance: half-width of the final bracket over its middle.
         bracket: a value without and one with the event, if known; both are run first.
@@ -155,6 +157,11 @@ class _Search:
         self.trials: list[Trial] = []
         self.known: dict[float, bool] = {}
         self.temperature = _event_temperature(case.material, of)
+        if of == "explode" and getattr(case.solver, "plateau", "") != "evaporate":
+            raise ValueError(
+                f"solver.plateau holds the boiling point, below the {self.temperature:.0f} K of "
+                'an explosion; write plateau = "evaporate" in [solver]'
+            )
 
     def case_at(self, value: float) -> Any:
         """The case with this energy."""
@@ -219,11 +226,17 @@ class _Search:
 
 def _event_temperature(material: Any, of: Event) -> float:
     """Temperature of the event [K]; ValueError where the material has none."""
+    vapor = material.vaporization
+    if of == "explode" and vapor is not None and vapor.critical_temperature is not None:
+        return PHASE_EXPLOSION * vapor.critical_temperature
     if of == "melt" and material.melting is not None:
         return material.melting.liquidus
     if of in ("vaporize", "ablate") and material.vaporization is not None:
         return material.vaporization.temperature
     data = {"melt": "melting", "vaporize": "vaporization", "ablate": "vaporization"}.get(of)
+    data = "critical temperature in its vaporization" if of == "explode" else data
     if data is None:
-        raise ValueError(f'no threshold of "{of}"; choose "melt", "vaporize" or "ablate"')
+        raise ValueError(
+            f'no threshold of "{of}"; choose "melt", "vaporize", "ablate" or "explode"'
+        )
     raise ValueError(f"material {material.name!r} has no {data} data, so no threshold to {of}")

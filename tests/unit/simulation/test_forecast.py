@@ -28,6 +28,7 @@ LAYERS = {
     "moving-film": (14, 14, 1764),
     "natural-convection": (40, 40, 1600),
     "pulsed-heating": (800, 800, 800),
+    "short-pulse-gold": (244, 150, 244),
     "sound-wave": (100, 100, 100),
     "spot-film": (14, 14, 4200),
     "spot-steel": (39, 23, 5410),

@@ -10,23 +10,30 @@ import numpy as np
 
 from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
+from lasersph.lasers import Laser
 from lasersph.lasers.pulses import PulseTrain
 from lasersph.observers import Observers, heat_observers
+from lasersph.observers.electron_view import ElectronView
 from lasersph.observers.view import View
 from lasersph.particles.filling import Filling
 from lasersph.simulation.recipes.recipe import Recipe, RunStage, SolverT, StepForecast
 from lasersph.solvers.conduction.body import assemble
+from lasersph.solvers.conduction.electron_body import with_electrons
 from lasersph.solvers.conduction.settings import ConductionSettings
 from lasersph.solvers.conduction.solver import Conduction, next_light
+from lasersph.solvers.conduction.two_temperatures import LIGHT_SHARE, TwoTemperatures
 from lasersph.solvers.heat_settings import HeatSettings
 from lasersph.solvers.step_control import name_of_longest
 
 HeatT = TypeVar("HeatT", bound=HeatSettings)
 
-PRODUCTS = {"implicit": 6.0, "explicit": 2.0}
+PRODUCTS = {"implicit": 6.0, "explicit": 2.0, "two": 150.0}
 """Cost of a step of heat, in sums over all pairs: iterations of Newton and of conjugate gradients,
-or the two stages. Forecast: 2.4 Newton and 5.6 linear iterations of `dlip-steel --quick` over rows
-that are partly inactive."""
+the two stages, or six linear solves of two temperatures. Forecast: 2.4 Newton and 5.6 linear
+iterations of `dlip-steel --quick` over rows that are partly inactive; 20 a solve of two."""
+RELAXING = 0.05
+"""Step of two temperatures after the light, over the time since it. Forecast: `short-pulse-gold`
+takes 0.02 to 0.2."""
 EXACT_LIMIT = {1: 0.846, 2: 0.80, 3: 0.741}
 """Stable dt D / dx^2 of forward Euler and midpoint at h = 1.5 dx. Forecast: largest eigenvalues of
 the discrete Laplacian; the one of 2-D is interpolated."""
@@ -50,12 +57,15 @@ class HeatRecipe(Recipe[HeatT, SolverT]):
             layers=self.layers,
             boundaries=case.boundaries,
             material=case.material,
-            laser=case.laser,
+            laser=self.light,
             curve=self.curve,
             use_second_moment=settings.weights == "second-moment",
         )
         pressure = case.boundaries.pressure_of_surroundings if settings.has_vapor_flux else 0.0
-        return Conduction(
+        solver: type[Conduction] = Conduction
+        if settings.has_two_temperatures:
+            solver, body = TwoTemperatures, with_electrons(body)
+        return solver(
             body,
             settings,
             case.time,
@@ -64,6 +74,14 @@ class HeatRecipe(Recipe[HeatT, SolverT]):
             recedes=recedes,
             end_of_pulse=case.end_of_pulse,
         )
+
+    @property
+    def light(self) -> Laser | None:
+        """The laser, whose light hot electrons carry deeper than it reaches."""
+        laser, material = self.case.laser, self.case.material
+        if laser is None or not self.settings.has_two_temperatures or not material.electrons:
+            return laser
+        return laser.carried_by(material, material.electrons.ballistic_range or 0.0)
 
     def heat_view(
         self, solver: Any, step: int, limit: str, fetch: Callable[[Array], np.ndarray]
@@ -88,7 +106,17 @@ class HeatRecipe(Recipe[HeatT, SolverT]):
             "liquidus": body.curve.liquidus,
             "vaporization": body.curve.vaporization,
             "critical": self.critical_temperature,
+            "electrons": self.electrons(particles, fetch),
         }
+
+    def electrons(
+        self, particles: Any, fetch: Callable[[Array], np.ndarray]
+    ) -> ElectronView | None:
+        """Electrons of `View`; None in a run with one temperature."""
+        if not self.settings.has_two_temperatures:
+            return None
+        T, energy = (fetch(particles[f"electron_{name}"]) for name in ("temperature", "energy"))
+        return ElectronView(T, energy)
 
     @property
     def critical_temperature(self) -> float | None:
@@ -115,6 +143,7 @@ class HeatRecipe(Recipe[HeatT, SolverT]):
             self.settings.dimensions,
             amount_dimension=self.case.geometry.amount_dimension,
             periodic=self.periodic,
+            has_electrons=self.settings.has_two_temperatures,
             pulses=self.pulse_observer(),
             probes=self.case.probes,
             iterations=iterations,
@@ -128,8 +157,8 @@ class HeatRecipe(Recipe[HeatT, SolverT]):
         Args:
             longest: step while the light is on [s]. shortest: while something flows [s].
         """
-        time = self.case.time
-        melt = self.melt
+        time, melt = self.case.time, self.melt
+        cooling = RELAXING if self.settings.has_two_temperatures else time.cooling
         end = self.case.end_of_pulse
         molten = (melt.start, melt.end) if melt is not None and self.flow else (np.nan, np.nan)
         found: list[tuple[str, float, int]] = []
@@ -141,7 +170,7 @@ class HeatRecipe(Recipe[HeatT, SolverT]):
             # cooling.
             step = next_light(pulse, now, longest)
             if lit_until > 0.0:
-                step = min(step, max(longest, time.cooling * (now - lit_until)))
+                step = min(step, max(longest, cooling * (now - lit_until)))
             is_lit = pulse.active(now, now + step)
             if is_lit:
                 lit_until = now + step
@@ -162,6 +191,8 @@ class HeatRecipe(Recipe[HeatT, SolverT]):
 
     def products_of(self, _stage: str) -> float:
         """Cost of a step, see `RunStage`."""
+        if self.settings.has_two_temperatures:
+            return PRODUCTS["two"]
         return PRODUCTS["explicit" if self.settings.is_explicit else "implicit"]
 
     def implicit_forecast(self, flow_limits: dict[str, float]) -> StepForecast:
@@ -171,6 +202,8 @@ class HeatRecipe(Recipe[HeatT, SolverT]):
 
         # Without light a thousandth of the run, else half of what resolves the pulse.
         longest = time.step or (1e-3 * time.end if laser is None else 0.5 * laser.pulse.resolution)
+        if laser is not None and self.settings.has_two_temperatures:
+            longest = time.step or LIGHT_SHARE * 100.0 * laser.pulse.resolution
         limits[name_of_longest(laser is not None)] = longest
         shortest = min(limits.values())
 

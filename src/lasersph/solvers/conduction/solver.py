@@ -105,6 +105,11 @@ class Conduction:
         return False
 
     @property
+    def holds_melt(self) -> bool:
+        """Whether what is molten stays at rest all the same."""
+        return False
+
+    @property
     def backend(self) -> Backend:
         """Of all arrays."""
         return self.body.backend

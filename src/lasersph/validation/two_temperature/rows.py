@@ -1,0 +1,101 @@
+"""Electrons and lattice beside exact solutions, beside one temperature, and their energies."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from lasersph.analytic.two_temperatures import HalfSpace, pulse_rise
+from lasersph.output import Run
+from lasersph.validation.drawing import Panel, exact, marks
+from lasersph.validation.study import Study
+
+PARTS = {"electrons": "electron_temperature", "lattice": "temperature"}
+
+
+def compare(study: Study) -> None:
+    """Judge the half space, the two limits and the energy."""
+    half_space(study)
+    strong_coupling(study)
+    long_pulse(study)
+    energy(study)
+
+
+def half_space(study: Study) -> None:
+    """Rises at some depths and times, within a share of the largest one there."""
+    plan = study.plan
+    times = 1e-12 * np.array(plan.times)
+    one = study.run(
+        "half-space",
+        f"particles.spacing={plan.spacing} nm",
+        *plan.constant,
+        f"output.snapshots.times={[f'{time} ps' for time in plan.times]}",
+    )
+    taken = zip(one.snapshots.times, one.snapshots, strict=True)
+    snapshots = {round(1e12 * float(time), 6): shot for time, shot in taken}
+    depth = -snapshots[plan.times[0]]["position"][-1]
+    for wanted in plan.depths:
+        place = int(np.argmin(np.abs(depth - 1e-9 * wanted)))
+        rises = pulse_rise(float(depth[place]), times, exact_body())
+        for part, expected in zip(PARTS, rises, strict=True):
+            largest = float(np.max(expected))
+            found = [float(snapshots[t][PARTS[part]][place]) for t in plan.times]
+            for time, T, rise in zip(plan.times, found, expected, strict=True):
+                labels = {"part": part, "depth": wanted, "time": time}
+                study.add("rise", T, 300.0 + float(rise), share=largest, **labels)
+    draw(study, one)
+
+
+def exact_body() -> HalfSpace:
+    """The half space of the plan: its lattice has what the electrons leave of 2511 J/(kg K)."""
+    return HalfSpace(2.1e4, 2.49e6, 2.1e16, 318.0, 8e6, 10.0, 150e-15, 0.5e-12)
+
+
+def strong_coupling(study: Study) -> None:
+    """The surface with a strong coupling, beside one temperature."""
+    plan = study.plan
+    runs = [
+        study.run(f"strong-{heat}", *plan.constant, *plan.strong, f"solver.heat={heat}-temperature")
+        for heat in ("two", "one")
+    ]
+    for number, time in enumerate(runs[0].snapshots.times):
+        if round(1e9 * float(time), 3) in plan.strong_times:
+            both = (run.snapshots[number]["temperature"] for run in runs)
+            found, wanted = (float(np.max(T)) - 300.0 for T in both)
+            study.add("strong", found, wanted, time=round(1e9 * float(time), 3))
+
+
+def long_pulse(study: Study) -> None:
+    """Melt depth of steel under a pulse of 10 ns, with two temperatures and with one."""
+    depths = [
+        study.run(
+            f"steel-{heat}", *study.plan.steel, f"solver.heat={heat}-temperature", case="dlip-steel"
+        ).summary["melt"]["volume_max_m3"]
+        for heat in ("two", "one")
+    ]
+    study.add("melt", 1e9 * depths[0], 1e9 * depths[1])
+
+
+def energy(study: Study) -> None:
+    """Heat of electrons and lattice of gold that melts, over what was absorbed."""
+    one = study.run("gold")
+    seen, absorbed = one.summary["electrons"], one.summary["energy"]["absorbed_J"]
+    study.add("energy", (seen["energy_J"] + seen["lattice_energy_J"]) / absorbed, 1.0)
+    study.add("latent", 1e9 * one.summary["melt"]["depth_half_max_m"])
+
+
+def draw(study: Study, one: Run) -> None:
+    """Both temperatures over depth at the times of the plan, beside exact ones."""
+    panels = []
+    for number, (part, name) in enumerate(PARTS.items()):
+        curves = []
+        for time, shot in zip(one.snapshots.times, one.snapshots, strict=True):
+            if time == 0.0:
+                continue
+            depth = -shot["position"][-1]
+            order = np.argsort(depth)[::4]
+            places = depth[order]
+            rises = [pulse_rise(float(z), float(time), exact_body(), 8001)[number] for z in places]
+            T = 300.0 + np.ravel(rises)
+            curves += [exact(1e9 * places, T), marks(1e9 * places, shot[name][order], "SPH")]
+        panels.append(Panel("depth [nm]", f"temperature of the {part} [K]", curves))
+    study.draw("half-space", *panels)
