@@ -12,7 +12,8 @@ from lasersph.solvers.melt_pool.settings import MeltPoolSettings
 NAMES = (
     "ablation-aluminium", "ablation-depth", "dam-break", "dlip-aluminium", "dlip-steel",
     "dots-steel", "heated-cube", "hydrostatic-column", "lid-driven-cavity", "lid-driven-cube",
-    "marangoni-layer", "moving-film", "natural-convection", "pulsed-heating", "sound-wave", "spot-film", "spot-steel",
+    "marangoni-layer", "moving-film", "natural-convection", "pulsed-heating", "sound-wave",
+    "spot-film", "spot-steel",
     "spot-weld", "stefan", "taylor-green", "texture-aluminium", "texture-steel",
 )  # fmt: skip
 
