@@ -37,7 +37,7 @@ from lasersph.input import (
     refusal,
 )
 from lasersph.materials import Material
-from lasersph.particles.faces import BOTTOM, SURFACE, VERTICAL, face_pairs
+from lasersph.particles.faces import SURFACE, VERTICAL, face_pairs
 
 Array = NDArray[np.float64]
 Face = Literal["adiabatic", "periodic", "free", "fixed-temperature", "wall", "prescribed-flux"]
@@ -56,9 +56,7 @@ KEYS = {
 
 def _of_body(description: str) -> Any:
     """Field of a face that blocks alone have, which cases of fewer dimensions do not store."""
-    return Field(
-        default=None, exclude_if=lambda given: given is None, description=description
-    )
+    return Field(default=None, exclude_if=lambda given: given is None, description=description)
 
 
 class Surroundings(NamedTuple):

@@ -161,7 +161,7 @@ def _domain(case: CaseContents) -> Iterator[tuple[str, str]]:
     if dimensions < 3 and domain.extent == "quarter":
         yield (
             "domain.extent",
-            f'a quarter is symmetric about y = 0, too, which a {dimensions}-D run does not have; '
+            f"a quarter is symmetric about y = 0, too, which a {dimensions}-D run does not have; "
             'write extent = "half", or dimensions = 3 in [solver]',
         )
     # Each side holds a few particles at least.

@@ -129,9 +129,7 @@ def _box(case: CaseContents, flow: FlowConditions) -> Iterator[tuple[str, str]]:
             continue
         own = getattr(case.boundaries, side) is not None
         key = (
-            _key_of(flow, side)
-            if heat == "periodic"
-            else f"boundaries.{side if own else 'sides'}"
+            _key_of(flow, side) if heat == "periodic" else f"boundaries.{side if own else 'sides'}"
         )
         given, other = (kind, "boundaries") if heat == "periodic" else (heat, "solver.flow")
         yield (

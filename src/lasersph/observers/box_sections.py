@@ -86,7 +86,6 @@ class Box:
         z = self.bottom if side == "bottom" else self.top
         return np.stack([self.across(shares), np.full(shares.size, z)])
 
-
     def _over(self, side: str, shares: np.ndarray) -> np.ndarray:
         """Points (3, m^2) of a side of a block [m]."""
         axis, end = ENDS[side]

@@ -96,7 +96,5 @@ class FlowView:
 
     def of_whole(self, images: int) -> Self:
         """The same with the heat through level sides of a computed half and its mirror image."""
-        heat = {
-            side: side_images(side, images) * heat for side, heat in self.wall_heat.items()
-        }
+        heat = {side: side_images(side, images) * heat for side, heat in self.wall_heat.items()}
         return replace(self, wall_heat=heat)

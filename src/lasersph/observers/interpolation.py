@@ -4,10 +4,10 @@ At a place x the polynomial sum_k c_k p_k(x_j - x) is fitted to the closest part
 
     sum_j w_j [ f_j - sum_k c_k p_k(x_j - x) ]^2 -> min,   w_j = (1 - |x_j - x|^2 / R^2)^2,
 
-so that c_0 is the value and c_1, c_2 (and c_3) are the slopes there. Fields of the polynomial's degree are
-reproduced exactly, however disordered the particles, also at a wall or a surface half a spacing
-beyond the last row, where the fit extrapolates (moving least squares: Lancaster and Salkauskas,
-Math. Comp. 37 (1981) 141).
+so that c_0 is the value and c_1, c_2 (and c_3) are the slopes there. Fields of the polynomial's
+degree are reproduced exactly, however disordered the particles, also at a wall or a surface half a
+spacing beyond the last row, where the fit extrapolates (moving least squares: Lancaster and
+Salkauskas, Math. Comp. 37 (1981) 141).
 """
 
 from __future__ import annotations

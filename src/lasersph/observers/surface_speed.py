@@ -1,15 +1,16 @@
 """Speed of the liquid at and below the surface, and the layer that the surface drags along.
 
-At the place x_m of the largest |u| at the surface the horizontal velocity is followed downward,
-in 3-D its part along the velocity at x_m: u one spacing below the surface, and the depth at which
-it changes sign, which is the thickness delta_m of the layer that flows outward. From it and from the mean gradient of the temperature
-along the fluid surface on that side follow the estimates
+At the place x_m of the largest |u| at the surface the horizontal velocity is followed downward, in
+3-D its part along the velocity at x_m: u one spacing below the surface, and the depth at which it
+changes sign, which is the thickness delta_m of the layer that flows outward. From it and from the
+mean gradient of the temperature along the fluid surface on that side follow the estimates
 
     u_tc = delta_m / eta |d gamma/dT <dT/dx>|,    t_tc = (period / 2) / u_tc
 
-[Demuth2020, eqs. (79), (80)]. The return flow is the largest speed against u(x_m) on the side of
-x = 0 on which x_m lies, in 3-D of the plane through the axis normal to x_m. Where the pool is one cell deep or flows one way down to its bottom, the
-layer reaches down to the lowest flowing particle below x_m.
+[Demuth2020, eqs. (79), (80)]. The return flow is the largest speed against u(x_m) on the side of x
+= 0 on which x_m lies, in 3-D of the plane through the axis normal to x_m. Where the pool is one
+cell deep or flows one way down to its bottom, the layer reaches down to the lowest flowing particle
+below x_m.
 """
 
 from __future__ import annotations

@@ -53,7 +53,7 @@ class Domain(Model):
 
     @property
     def planes_of_symmetry(self) -> tuple[str, ...]:
-        """Faces in which the computed part is mirrored: none, that at x = 0, or that at y = 0 too."""
+        """Faces in which the computed part is mirrored: that at x = 0, that at y = 0."""
         return {"full": (), "half": (LEFT,), "quarter": (LEFT, FRONT)}[self.extent]
 
     @property

@@ -8,6 +8,8 @@ from lasersph.case import Case
 
 EDGE_TOLERANCE = 1e-9
 """Share of the width by which an axis may miss the edge. Rounding: of lengths."""
+
+
 def halves_spot(case: Case) -> tuple[bool, bool]:
     """Whether the axis of a resting spot lies on the lower and on the upper end of x."""
     return _lies_on_ends(case, 0) if case.solver.dimensions > 1 else (False, False)

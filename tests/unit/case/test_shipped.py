@@ -14,7 +14,8 @@ NAMES = (
     "dots-steel", "heated-cube", "hydrostatic-column", "lid-driven-cavity", "lid-driven-cube",
     "marangoni-layer", "moving-film", "natural-convection", "pulsed-heating", "short-pulse-gold",
     "sound-wave", "spot-film", "spot-steel",
-    "spot-weld", "stefan", "taylor-green", "texture-aluminium", "texture-steel",
+    "spot-weld", "stefan", "taylor-green", "texture-aluminium",
+    "texture-dots-steel", "texture-steel",
 )  # fmt: skip
 
 

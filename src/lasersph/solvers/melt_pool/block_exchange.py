@@ -20,6 +20,7 @@ from lasersph.solvers.melt_pool.block_terms import wall_terms
 from lasersph.solvers.melt_pool.face_conditions import FaceConditions
 from lasersph.solvers.melt_pool.face_exchange import FaceExchange
 from lasersph.solvers.melt_pool.flow import Flow
+from lasersph.surface.surface import Surface
 
 
 def heat_of_pair(
@@ -121,10 +122,10 @@ def exchange_of(
     count: int,
     potential: Array | None,
     conditions: FaceConditions,
-    *,
-    books_pressing: bool,
+    surface: Surface,
 ) -> FaceExchange:
-    """What a box exchanges with its faces; args as of `FaceExchange`."""
+    """Exchange of a box below a surface with its faces; other args as of `FaceExchange`."""
+    books = surface.pressure_gradient.is_symmetric
     if len(conditions.box) == 2:
-        return FaceExchange(backend, count, potential, books_pressing=books_pressing)
-    return BlockExchange(backend, count, potential, conditions, books_pressing=books_pressing)
+        return FaceExchange(backend, count, potential, books_pressing=books)
+    return BlockExchange(backend, count, potential, conditions, books_pressing=books)

@@ -10,7 +10,6 @@ from lasersph.boundaries.flow_conditions import FlowConditions
 from lasersph.input import Acceleration
 from lasersph.solvers.heat_settings import HeatSettings
 
-
 BYTES_IN_SPACE = 120
 """Memory of a neighbor in 3-D [B]. Forecast: as measured of a spot with 180 thousand particles,
 5.2 GiB; nothing computed depends on it."""

@@ -78,7 +78,11 @@ def _vortices(study: Study, plan: SimpleNamespace) -> None:
         for count in plan.particles:
             one = study.run(
                 f"vortices-{reynolds}-{count}",
-                *("domain.extent=quarter", f"domain.width={side!r} m", f"domain.breadth={side!r} m"),
+                *(
+                    "domain.extent=quarter",
+                    f"domain.width={side!r} m",
+                    f"domain.breadth={side!r} m",
+                ),
                 *(f"domain.depth={0.5 * side!r} m", f"particles.spacing={side / count!r} m"),
                 *("solver.flow.sides=", *faces, "solver.steady="),
                 *("solver.flow.initial.kind=taylor-green", "solver.flow.initial.speed=1 m/s"),

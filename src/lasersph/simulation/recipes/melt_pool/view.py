@@ -16,6 +16,7 @@ from lasersph.observers.flow_view import FlowView
 from lasersph.physics.recoil import recoil_at
 from lasersph.solvers.melt_pool.solver import MeltPool
 
+
 def flow_view(case: Case, solver: MeltPool, fetch: Callable[[Array], np.ndarray]) -> FlowView:
     """The flow for observers; `fetch` gets an array of the solver."""
     flow = solver.flow
