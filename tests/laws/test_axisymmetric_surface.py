@@ -73,8 +73,9 @@ class WarmRing:
     def __init__(self, at):
         self.at = at
 
-    def mean_over(self, x, begin, end):
-        """What the surface has more at x [K]."""
+    def mean_over(self, places, begin, end):
+        """What the surface has more at places along x [K]."""
+        (x,) = places
         return 100.0 * np.exp(-(((x - self.at) / 1e-6) ** 2))
 
 

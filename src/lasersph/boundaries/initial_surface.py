@@ -157,9 +157,7 @@ class InitialSurface(Model):
         """Height [m] at x and y [m]; rows of a file hold for all y."""
         return self.at(x) if self.shape is None else self.shape.at(x, y)
 
-    def mean_over_columns(
-        self, places: tuple[Array, Array], widths: tuple[float, float]
-    ) -> Array:
+    def mean_over_columns(self, places: tuple[Array, Array], widths: tuple[float, float]) -> Array:
         """Mean height [m] over the columns of a body around places along x and y [m]; rows of a
         file hold for all y."""
         if self.shape is None:

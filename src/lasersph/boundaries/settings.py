@@ -13,7 +13,7 @@ The emissivity is the metal's where none is given here.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Annotated, Any, Literal, NamedTuple
 
 import numpy as np
@@ -231,17 +231,21 @@ class Boundaries(Model):
         return initial if given is None else given
 
     def temperature_along(
-        self, face: str, x: Array, initial: float, interval: tuple[float, float] = (0.0, 0.0)
+        self,
+        face: str,
+        places: Sequence[Array],
+        initial: float,
+        interval: tuple[float, float] = (0.0, 0.0),
     ) -> Array:
-        """Given temperature of a face [K] at places x along it [m], any shape.
+        """Given temperature of a face [K] at places along x, and y where there is one [m].
 
         Averaged over an interval of time [s].
         """
-        mean = np.full(np.shape(x), self.temperature_of(face, initial))
+        mean = np.full(np.shape(places[0]), self.temperature_of(face, initial))
         drive = self.temperature_drive
         if drive is None or face != SURFACE:
             return mean
-        return mean + drive.mean_over((x,), *interval)
+        return mean + drive.mean_over(places, *interval)
 
     @property
     def temperature_drive(self) -> TemperatureWave | TemperatureBump | None:

@@ -5,8 +5,8 @@
     cap     sqrt(R^2 - r^2) - (R - h) for r < R_0, else 0, with R = (R_0^2 + h^2)/(2 h)
 
 r is |x|, on a body sqrt(x^2 + y^2). A column is a cell of a plane section or of a body. A ring is
-one of a section (r, z), in whose mean each height counts by r. A cap is written with its curvature c = 1/R, which has no difference of two
-large numbers: h - c r^2/(1 + q), q = sqrt(1 - c^2 r^2).
+one of a section (r, z), in whose mean each height counts by r. A cap is written with its curvature
+c = 1/R, which has no difference of two large numbers: h - c r^2/(1 + q), q = sqrt(1 - c^2 r^2).
 """
 
 from __future__ import annotations
@@ -42,9 +42,7 @@ class SurfaceShape(ABC):
     def at(self, x: Array, y: Array | float = 0.0) -> Array:
         """Height at x and y [m], any shape."""
 
-    def mean_over_columns(
-        self, places: tuple[Array, Array], widths: tuple[float, float]
-    ) -> Array:
+    def mean_over_columns(self, places: tuple[Array, Array], widths: tuple[float, float]) -> Array:
         """Mean height over the columns of a body around places along x and y [m], any shape.
 
         By Gauss and Legendre with `NODES` along each axis.
@@ -117,7 +115,9 @@ class Bump(SurfaceShape):
 
     def at(self, x: Array, y: Array | float = 0.0) -> Array:
         """Height at x and y [m], any shape."""
-        return self.amplitude * np.exp(-((x / self.radius) ** 2)) * np.exp(-((y / self.radius) ** 2))
+        return (
+            self.amplitude * np.exp(-((x / self.radius) ** 2)) * np.exp(-((y / self.radius) ** 2))
+        )
 
     def mean(self, low: Array, high: Array, *, is_ring: bool) -> Array:
         """Mean height over columns or rings from `low` to `high` [m], any shape."""

@@ -1,9 +1,9 @@
 """Beer and Lambert through particles that have moved, as pure functions of a grid of cells.
 
 Columns and levels of cells of one spacing lie below the surface. A particle is as wide as a cell
-and as high as its volume says, that of a cell where nothing has evaporated; it covers up to two of them
-along each axis, by parts c_ik of their area, which sum up to its volume over that of a cell. A cell is as
-opaque as what lies in it, and takes of the light that enters its column
+and as high as its volume says, that of a cell where nothing has evaporated; it covers up to two of
+them along each axis, by parts c_ik of their volume, which sum up to its volume over that of a cell.
+A cell is as opaque as what lies in it, and takes of the light that enters its column
 
     tau_k = alpha w sum_i c_ik,    s_k = exp(-sum of tau above) (1 - exp(-tau_k))
 

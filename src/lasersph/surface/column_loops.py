@@ -11,6 +11,7 @@ from math import ceil, floor
 from lasersph.compute.vectors import vector
 from lasersph.surface.loops import MIRROR, PERIODIC, number_of
 
+
 def source_column(c, columns, low_end, high_end):
     """Column whose particles are seen in column c, which may lie beyond an end; -1 for none."""
     if c < 0:
@@ -86,12 +87,12 @@ def b_spline_around(place, center):
 
 def first_near(center):
     """First column that a B-spline around a place reaches."""
-    return int(floor(center - 1.5))
+    return floor(center - 1.5)
 
 
 def beyond_near(center):
     """Column after the last one that it reaches."""
-    return int(ceil(center + 1.5))
+    return ceil(center + 1.5)
 
 
 def side_center(k, along, columns):

@@ -22,9 +22,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lasersph.boundaries.surface_drives import TemperatureBump, TemperatureWave
-from lasersph.compute.array_types import Array, Rows
+from lasersph.compute.array_types import Array, Constants, Rows
 from lasersph.compute.backend import Backend
-from lasersph.compute.vectors import dot, interpolate
+from lasersph.compute.vectors import dot, interpolate, vector
 from lasersph.materials import Material
 from lasersph.sph.tangential import (
     extend_from_surface,
@@ -34,7 +34,7 @@ from lasersph.sph.tangential import (
 )
 from lasersph.surface.columns import product
 from lasersph.surface.pressure_gradient import SymmetricGradient
-from lasersph.surface.surface import Surface, SurfaceNeighbors, SurfaceStep, Vector
+from lasersph.surface.surface import Surface, SurfaceNeighbors, SurfaceStep
 
 LOWEST, HIGHEST = 1.0, 2.0e4
 """Range of temperatures of the table of surface tension [K]. Format: it ends far above any metal.
@@ -63,15 +63,26 @@ def surface_tension(T, T_nodes, gamma_nodes):
     return interpolate(T, T_nodes, gamma_nodes)
 
 
-def imposed_wave(x, along, mean, amplitude, wave_number):
-    """Given temperature of the surface above a particle [K], with a wave in it."""
-    return mean + amplitude * cos(wave_number * dot(x, along))
+def imposed_wave(x, mean, amplitude, wave_number):
+    """Given temperature of the surface above a particle [K], with a wave in it.
+
+    Args:
+        wave_number: along each axis of the surface, 0 where nothing varies [1/m].
+    """
+    wave = cos(wave_number[0] * x[0])
+    if len(wave_number) == 2:
+        wave = wave * cos(wave_number[1] * x[1])
+    return mean + amplitude * wave
 
 
-def imposed_bump(x, along, mean, amplitude, radius):
-    """Given temperature of the surface above a particle [K], with a bump in it."""
-    share = dot(x, along) / radius
-    return mean + amplitude * exp(-share * share)
+def imposed_bump(x, center, mean, amplitude, radius):
+    """Given temperature of the surface above a particle [K], with a bump in it.
+
+    Args:
+        center: of the bump, along each axis of the surface [m].
+    """
+    r = vector(*((x[k] - center[k]) / radius for k in range(len(center))))
+    return mean + amplitude * exp(-dot(r, r))
 
 
 def velocity_jump(tau, depth, fluidity, eta):
@@ -92,11 +103,6 @@ def across_terms(g_ij, w_ij, x_j, n, plane):
 def fluidity_across(total_0, total_1):
     """Viscosity at the liquidus over the mean of a particle's pairs across the surface."""
     return total_0 / total_1 if total_1 > 0.0 else 1.0 + total_1
-
-
-def along_x(dimension: int) -> Vector:
-    """Unit vector along x."""
-    return (1.0,) + (0.0,) * (dimension - 1)
 
 
 class FlatSurface(Surface):
@@ -200,14 +206,16 @@ class FlatSurface(Surface):
             self.backend.fill(out, given.mean)
             return
         # a mean, and a wave or a bump while it acts
-        fields = {"x": now.position}
-        place = {"along": along_x(len(self.normal)), "mean": given.mean}
+        fields, axes = {"x": now.position}, len(self.normal) - 1
+        place: Constants = {"mean": given.mean}
         place["amplitude"] = drive.share_of(*now.interval) * drive.amplitude
         if isinstance(drive, TemperatureBump):
-            self.backend.pointwise(imposed_bump, fields, out, **place, radius=drive.radius)
+            place |= {"center": (0.0,) * axes, "radius": drive.radius}
+            self.backend.pointwise(imposed_bump, fields, out, **place)
             return
-        wave_number = 2.0 * np.pi / drive.period
-        self.backend.pointwise(imposed_wave, fields, out, **place, wave_number=wave_number)
+        periods = (drive.period, drive.period_y)[:axes]
+        place["wave_number"] = tuple(2.0 * np.pi / one if one else 0.0 for one in periods)
+        self.backend.pointwise(imposed_wave, fields, out, **place)
 
     def _rows(self, mark: Array, active: Array) -> Rows:
         """Index array of marked particles that are active."""

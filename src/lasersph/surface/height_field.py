@@ -296,7 +296,9 @@ class HeightField:
 
     def _stencil(self, weights: Array, values: Array, parity: float, axis: int) -> Array:
         """Sum of five neighboring values with weights; at pinned ends of the quartic."""
-        return along_axis(partial(window_sum, weights=weights), axis, self.extend(values, parity, axis))
+        return along_axis(
+            partial(window_sum, weights=weights), axis, self.extend(values, parity, axis)
+        )
 
 
 def curvature_of(

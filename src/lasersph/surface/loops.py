@@ -2,9 +2,10 @@
 
 Heights are given at nodes in the middle of their columns, two more at either end of each axis:
 tables in which the last axis runs fastest, with the place of the first column `start`, 1/width
-`inverse_width` and the number of columns along each of the d - 1 axes. Places are counted in columns from
-the lower ends. Beyond an end the surface goes on as its kind says: PINNED (not at all), MIRROR,
-PERIODIC; what particles give to columns comes from there in the same way, see `column_loops`.
+`inverse_width` and the number of columns along each of the d - 1 axes. Places are counted in
+columns from the lower ends. Beyond an end the surface goes on as its kind says: PINNED (not at
+all), MIRROR, PERIODIC; what particles give to columns comes from there in the same way, see
+`column_loops`.
 """
 
 from __future__ import annotations

@@ -41,10 +41,10 @@ from lasersph.surface.column_flux import volume_flux
 from lasersph.surface.column_loops import thickness_of
 from lasersph.surface.forcing import SurfaceForcing
 from lasersph.surface.height_field import HeightField, length_ratio
+from lasersph.surface.pools import SurfacePools
 from lasersph.surface.pressure_condition import SurfaceLiquid, find_conditions
 from lasersph.surface.pressure_gradient import DifferenceGradient
 from lasersph.surface.recession import MassLoss, take_mass
-from lasersph.surface.pools import SurfacePools
 from lasersph.surface.segments import SurfaceSegments, overrun
 from lasersph.surface.surface import Surface, SurfaceNeighbors, SurfaceStep
 from lasersph.surface.surface_fit import surface_velocity_of_grid, surface_velocity_of_line
@@ -254,7 +254,7 @@ class MovingSurface(Surface):
 
     def hold_thin_melt(self, position: Array, volume: Array, flows: Array) -> float:
         """Let what is molten under too thin columns rest; returns how many particles flow."""
-        backend, line = self.backend, self.line
+        backend = self.backend
         # columns over which the melt runs move, however little of it has arrived there
         thick = self._is_thick(self._melt_height(position, volume, flows))
         self._is_overrun = self._overrun(thick)

@@ -24,7 +24,6 @@ from numpy.typing import NDArray
 from lasersph.surface.height_field import FIRST, SECOND, HeightField, curvature_of, length_ratio
 from lasersph.surface.smoothing import (
     EVEN_PARITY,
-    ODD_PARITY,
     ORDER,
     PIN_WEIGHT,
     PINNED_ORDER,
@@ -199,9 +198,7 @@ class PoolField:
     def curvature(self) -> Array:
         """(m,) kappa of the smoothed field [1/m], > 0 on a crest."""
         f, even = self.smoothed, (EVEN_PARITY,) * 2
-        second = [
-            self._stencil(SECOND, f, even, axis) / self.widths[axis] ** 2 for axis in (0, 1)
-        ]
+        second = [self._stencil(SECOND, f, even, axis) / self.widths[axis] ** 2 for axis in (0, 1)]
         # eta_xy by the product of both first differences
         weights = FIRST[:, None] * FIRST[None, :]
         mixed = np.sum(weights * f[self._around], axis=(1, 2)) / prod(self.widths)

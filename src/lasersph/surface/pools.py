@@ -71,7 +71,9 @@ class SurfacePools:
         place = np.unravel_index(columns, whole.shape)
         for axis, ends in enumerate(whole.ends):
             at_ends = place[axis].min() == 0, place[axis].max() == whole.shape[axis] - 1
-            mirrors = (is_there and end == "mirror" for is_there, end in zip(at_ends, ends, strict=True))
+            mirrors = (
+                is_there and end == "mirror" for is_there, end in zip(at_ends, ends, strict=True)
+            )
             times *= 2 if any(mirrors) else 1
         return times
 

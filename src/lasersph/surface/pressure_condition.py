@@ -63,8 +63,8 @@ def find_conditions(
 
     Args:
         molten: (columns,) which move. members: particles that flow, by column. relative_viscosity:
-            (columns,) of the surface over that at the liquidus. length_ratio: (columns,) true length
-            of the surface over that seen from above.
+            (columns,) of the surface over that at the liquidus. length_ratio: (columns,) its true
+            length over that seen from above.
     """
     count = neighbors.pairs.row_start.shape[0] - 1
     # boundary coefficient, p_b and length of surface seen, for each particle

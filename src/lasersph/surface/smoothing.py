@@ -6,8 +6,9 @@ F eta minimizes
 
 [Whittaker1923], D^n the n-th difference over dx^n. A wave of length lambda >> dx keeps the part
 1/(1 + (lambda_c/lambda)^(2n)) of its height. On a grid of two axes `pool_field` minimizes the same
-with the differences of all directions. Across a plane of symmetry the field goes on as its mirror image. Where it is
-pinned no slope is assumed: differences lie inside, polynomials of degree n - 1 pass unchanged.
+with the differences of all directions. Across a plane of symmetry the field goes on as its mirror
+image. Where it is pinned no slope is assumed: differences lie inside, polynomials of degree n - 1
+pass unchanged.
 """
 
 from __future__ import annotations

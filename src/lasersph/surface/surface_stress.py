@@ -67,7 +67,9 @@ class Smoothed(Protocol):
         """Their curvature there [1/m]."""
         ...
 
-    def smooth(self, values: HostArray, parity: Any = ..., at_pins: float | None = ...) -> HostArray:
+    def smooth(
+        self, values: HostArray, parity: Any = ..., at_pins: float | None = ...
+    ) -> HostArray:
         """Smoothed values of the columns."""
         ...
 
@@ -165,10 +167,7 @@ class SurfaceStress:
         T_here = line.at_columns(T)
         viscosity = liquid.viscosity * liquid.relative_viscosity_at(T_here)
         shear = np.array(
-            [
-                shear_rate(line.derivative(gamma, axis=a) / S, viscosity, across[a])
-                for a in axes
-            ]
+            [shear_rate(line.derivative(gamma, axis=a) / S, viscosity, across[a]) for a in axes]
         )
         gradient = np.array([line.derivative(T, axis=a) / S for a in axes])
         if len(slopes) > 1:
@@ -192,4 +191,3 @@ class SurfaceStress:
             p_b=pressure,
         )
         return found, float(np.max(tension))
-

@@ -48,5 +48,5 @@ def test_wave_of_the_surface():
         }
     )
     x = np.array([0.0, 1.0, 2.0])
-    assert faces.temperature_along("surface", x, 0.0) == pytest.approx([302.0, 300.0, 298.0])
-    assert faces.temperature_along("bottom", x, 310.0).tolist() == [310.0] * 3
+    assert faces.temperature_along("surface", (x,), 0.0) == pytest.approx([302.0, 300.0, 298.0])
+    assert faces.temperature_along("bottom", (x,), 310.0).tolist() == [310.0] * 3

@@ -36,7 +36,7 @@ LAYERS = {
     "stefan": (200, 200, 200),
     "taylor-green": (50, 50, 2500),
     "texture-aluminium": (73, 31, 2799),
-    "texture-dots-steel": (0, 0, 0),
+    "texture-dots-steel": (30, 15, 102008),
     "texture-steel": (58, 26, 5491),
 }
 """Layers, the finest of them, and particles of the shipped cases: a regression. The estimate of the

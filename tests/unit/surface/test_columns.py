@@ -41,20 +41,16 @@ def test_others_come_up(backend):
 
 
 def test_area_of_a_grid(backend):
-    """Particles at any places share 3 m by 4 m; one on the corner of four columns a quarter each."""
+    """Particles at any places share 3 m by 4 m; one on a corner stands for all of four columns."""
     rng = np.random.default_rng(3)
     place = [9.0 * np.ones((2, 20)), np.zeros((1, 20))]
     place[0][:, :18] = rng.uniform(0.1, 0.9, (2, 18)) * [[3.0], [4.0]]
     columns = SurfaceColumns(backend, 20, (0.0, 0.0), (1.0, 1.0), (3, 4))
-    columns.find(
-        backend.asarray(np.concatenate(place)), backend.asarray(np.arange(18), "index")
-    )
+    columns.find(backend.asarray(np.concatenate(place)), backend.asarray(np.arange(18), "index"))
     covered = backend.to_host(columns.mean(backend.asarray(np.ones(20))))
     area = backend.to_host(columns.area)
     assert area.sum() == pytest.approx(covered.sum(), rel=1e-6) and not area[18:].any()
-    columns.find(
-        backend.asarray([[1.0], [2.0], [0.0]]), backend.asarray(np.zeros(1), "index")
-    )
+    columns.find(backend.asarray([[1.0], [2.0], [0.0]]), backend.asarray(np.zeros(1), "index"))
     shares = [(int(backend.to_host(c)[0]), backend.to_host(s)[0]) for c, s in columns.shares(2.0)]
     assert sorted(shares) == [(1, 2.0), (2, 2.0), (5, 2.0), (6, 2.0)]
     assert backend.to_host(columns.area)[0] == pytest.approx(4.0)

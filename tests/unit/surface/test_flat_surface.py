@@ -108,8 +108,12 @@ def test_without_marangoni():
 
 def test_imposed_wave():
     """mean + amplitude cos(k x), whatever the particles' own temperature."""
-    found = imposed_wave(np.array([0.25, -3.0]), ALONG, 300.0, 2.0, pi)
+    found = imposed_wave(np.array([0.25, -3.0]), 300.0, 2.0, (pi,))
     assert found == 300.0 + 2.0 * cos(0.25 * pi)
+    # along y as well, and along x alone
+    dots = imposed_wave(np.array([0.25, 0.5, -3.0]), 300.0, 2.0, (pi, 0.5 * pi))
+    assert dots == pytest.approx(300.0 + 2.0 * cos(0.25 * pi) ** 2)
+    assert imposed_wave(np.array([0.25, 0.5, -3.0]), 300.0, 2.0, (pi, 0.0)) == found
     wave = {"amplitude": 2.0, "period": 1.0}
     heat = {"surface": "fixed-temperature", "surface_temperature": 300.0,
             "surface_temperature_wave": wave}  # fmt: skip

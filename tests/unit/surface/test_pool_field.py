@@ -201,14 +201,16 @@ def test_pools_of_a_grid(turned):
 def test_pool_across_a_period():
     """Columns at both ends of x are one pool, and pass on volume through the end."""
     grid = grid_of((PERIODIC, MIRROR))
-    x, y = grid.places
+    x, _ = grid.places
     pools = SurfacePools(grid)
     pools.choose(((x < 3e-7) | (x > 9e-7)).ravel())
     assert len(pools.parts) == 1
     flux = np.zeros((25, 30)), np.zeros((24, 31))
     flux[0][[0, -1]] = 2.0
     height = pools.heights_after(1.0, flux).reshape(grid.shape)
-    assert height[0] == pytest.approx(2.0 / grid.widths[0]) and height[-1] == pytest.approx(-height[0])
+    assert height[0] == pytest.approx(2.0 / grid.widths[0]) and height[-1] == pytest.approx(
+        -height[0]
+    )
 
 
 def test_arms_of_one_column_have_values():

@@ -50,7 +50,12 @@ def ridden(i, z, flows=1.0):
     """A particle of 2 m^2 at a height in the first of two columns, 1 m wide: base -4 m, twice as
     high after 2 s, 0.5 m evaporated."""
     tables = {"base": np.array([-4.0, 0.0]), "ratio": np.array([2.0, 1.0])}
-    tables |= {"lost": np.array([0.5, 0.0]), "start": (0.0,), "inverse_width": (1.0,), "columns": (2.0,)}
+    tables |= {
+        "lost": np.array([0.5, 0.0]),
+        "start": (0.0,),
+        "inverse_width": (1.0,),
+        "columns": (2.0,),
+    }
     return ride(i, np.array([0.5, z]), 2.0, 6.0, flows, **tables, step=2.0, spacing=2.0)
 
 

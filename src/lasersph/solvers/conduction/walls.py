@@ -63,7 +63,9 @@ def walls_of(
     count = filling.count
     coefficient, flow, heat, power = (np.zeros(count) for _ in range(4))
     for face, pairs in found.items():
-        T = boundaries.temperature_along(face, pairs.place[0], curve.initial_temperature)
+        # a column of one dimension has no place along its surface
+        places = tuple(pairs.place[: max(len(pairs.place) - 1, 1)])
+        T = boundaries.temperature_along(face, places, curve.initial_temperature)
         coefficient += pairs.total(count)
         heat += pairs.total(count, T)
         flow += pairs.total(count, wall_potential(curve, T))

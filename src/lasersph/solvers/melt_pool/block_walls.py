@@ -94,7 +94,7 @@ class BlockWalls:
         rows = backend.rows_where(ghosts.of_type(self._varies), 1.0)
         chosen = backend.zeros((ghosts.dimension, rows.shape[0]))
         backend.gather(ghosts.place, rows, chosen)
-        T = self.conditions.varying_temperature(backend.to_host(chosen)[0])
+        T = self.conditions.varying_temperature(backend.to_host(chosen)[:-1])
         for name, values in self._state(T).items():
             backend.scatter(backend.asarray(values), rows, self.rules[name])
 

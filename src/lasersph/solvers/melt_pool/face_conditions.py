@@ -87,8 +87,8 @@ class GhostRules:
 
     @property
     def has_one_wall(self) -> NDArray[np.bool_]:
-        """(w,) whether one wall along which no liquid slips lies between, and no edge of two; beside
-        it planes of symmetry may."""
+        """(w,) whether one wall along which no liquid slips lies between, and no edge of two;
+        planes of symmetry may lie beside it."""
         return np.count_nonzero(self.sticks, axis=0) == 1
 
 
@@ -219,10 +219,11 @@ class FaceConditions:
         rules.plane[mine] = outward * at
         rules.heat_face[mine] = self.number_of(face)
 
-    def varying_temperature(self, x: Array) -> Array:
-        """Temperature of a face that varies along it, at places x [m] in the `interval`, [K]."""
+    def varying_temperature(self, places: Array) -> Array:
+        """Temperature of a face that varies along it, at places (d - 1, n) along x, and y where
+        there is one [m], in the `interval`, [K]."""
         T_0 = self.initial_temperature
-        return self.boundaries.temperature_along(SURFACE, x, T_0, self.interval)
+        return self.boundaries.temperature_along(SURFACE, tuple(places), T_0, self.interval)
 
     def _crossings(self, ghost_types: GhostTypes) -> Iterator[Crossing]:
         """All faces but periodic ones that lie between ghosts and their sources."""

@@ -63,8 +63,8 @@ class GhostExtension:
         self._mirrored_velocity = self._tables(rules.mirrored_velocity)
         self._velocity_change = self._tables(rules.velocity_change)
 
-        # walls on which no liquid slips: components along them, those that planes of symmetry beside
-        # them turn around as they do, normal and place
+        # walls on which no liquid slips: components along them, with the sign by which planes of
+        # symmetry beside them turn these around, normal and place
         is_wall = (rules.sticks > 0.0) & rules.has_one_wall & (types.crosses_surface == 0.0)
         along_wall = np.where(~is_wall & is_wall.any(axis=0), -rules.factor, 0.0)
         self.has_still_walls = bool(along_wall.any())
