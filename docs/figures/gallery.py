@@ -101,6 +101,10 @@ SPOT = ("lasersph run ablation-aluminium --quick --out runs/ablation",)
 SPOT_FROM = (_case("ablation-aluminium"), f"{RECIPES}.ablation")
 FILM = ("lasersph run moving-film --quick --out runs/film",)
 FILM_FROM = (_case("moving-film"), f"{RECIPES}.melt_pool")
+DOT = (
+    "lasersph run texture-dots-steel --set particles.spacing=64nm --anyway --out runs/dot",
+)
+DOT_FROM = (_case("texture-dots-steel"), f"{RECIPES}.melt_pool", _plots("surface_maps"))
 TEXTURE_FROM = (_case("texture-steel"), f"{RECIPES}.melt_pool", _plots("relief"))
 
 GALLERY = (
@@ -237,6 +241,23 @@ GALLERY = (
         ),
         "runs/ten/figures/relief-pulses.png",
         *TEXTURE_FROM,
+    ),
+    _entry(
+        "dot-relief",
+        "A dot of four beams",
+        "Height of the surface that one pulse leaves in steel, from above; a quarter was computed. "
+        "Takes some minutes.",
+        DOT,
+        "runs/dot/figures/surface-height.png",
+        *DOT_FROM,
+    ),
+    _entry(
+        "dot-sections",
+        "Cuts through a dot",
+        "Its height along x, along y and along the diagonal.",
+        DOT,
+        "runs/dot/figures/surface-sections.png",
+        *DOT_FROM,
     ),
     _entry(
         "moving-spot",
