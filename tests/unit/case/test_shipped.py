@@ -14,6 +14,7 @@ NAMES = (
     "moving-film", "natural-convection", "pulsed-heating", "short-pulse-gold", "sound-wave",
     "spot-film", "spot-steel",
     "spot-weld", "stefan", "taylor-green", "texture-aluminium", "texture-steel",
+    "texture-steel-10ps",
 )  # fmt: skip
 
 

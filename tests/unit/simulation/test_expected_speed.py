@@ -23,6 +23,8 @@ COMPUTED = {
     ("dlip-aluminium", "1.2 J/cm^2"): 20.20,
     ("texture-steel", ""): 22.31,  # lasersph run texture-steel: largest speed at the surface
     ("texture-aluminium", ""): 29.46,  # the same with particles.spacing=32nm
+    # lasersph run texture-steel-10ps with 16 nm, to 4 ns: largest speed at the surface
+    ("texture-steel-10ps", ""): 1.785,
     ("spot-steel", ""): 11.1,  # lasersph run spot-steel: largest speed at the surface
     ("spot-weld", ""): 3.5,  # lasersph run spot-weld: largest speed at the surface
     ("moving-film", ""): 1.146,  # lasersph run moving-film --quick

@@ -35,6 +35,7 @@ LAYERS = {
     "taylor-green": (50, 50, 2500),
     "texture-aluminium": (73, 31, 2799),
     "texture-steel": (58, 26, 5491),
+    "texture-steel-10ps": (47, 16, 7815),
 }
 """Layers, the finest of them, and particles of the shipped cases: a regression. The estimate of the
 melt decides on some, so that another estimate would make other runs."""

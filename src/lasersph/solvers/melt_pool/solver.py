@@ -90,8 +90,7 @@ class MeltPool:
             self.pauses = Pauses(heat.body, heat.state, pulse, pause, self.lay_out)
         self.steadiness = Steadiness(settings.steady, domain.width)
         columns, low = heat.body.filling.fine_surface, domain.box[0][0]
-        width = domain.width / columns
-        self.surface_columns = SurfaceColumns(backend, count, low, width, columns)
+        self.surface_columns = SurfaceColumns(backend, count, low, domain.width / columns, columns)
         self.surface_columns.keep(heat.body.filling.surface[columns:], heat.body.area)
         self.spacing_min = domain.spacing
         self.fluid_count = 0.0
@@ -319,9 +318,10 @@ class MeltPool:
     def _melt(self) -> bool:
         """Whether anything flows."""
         self._find_fluid()
-        if self.fluid_count == 0.0:
+        flows = self.fluid_count > 0.0 and not self.heat.holds_melt
+        if not flows:
             self.flow.stop_all()
-        return self.fluid_count > 0.0
+        return flows
 
     def _end_of_pause(self) -> float | None:
         """Start of the next pulse [s] where the pause before it is to be left out now."""

@@ -82,6 +82,7 @@ class MeltPoolRecipe(HeatRecipe[MeltPoolSettings, MeltPool]):
         return flow_observers(
             self.settings.dimensions,
             amount_dimension=self.case.geometry.amount_dimension,
+            has_electrons=self.settings.has_two_temperatures,
             box=self.case.flow is not None,
             topography=self._topography(),
             pulses=self.pulse_observer(),
