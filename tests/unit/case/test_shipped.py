@@ -13,8 +13,8 @@ NAMES = (
     "dots-steel", "hydrostatic-column", "lid-driven-cavity", "marangoni-layer",
     "moving-film", "natural-convection", "pulsed-heating", "short-pulse-gold", "sound-wave",
     "spot-film", "spot-steel",
-    "spot-weld", "stefan", "taylor-green", "texture-aluminium", "texture-steel",
-    "texture-steel-10ps",
+    "spot-weld", "stefan", "taylor-green", "texture-aluminium", "texture-steel-10ps",
+    "texture-steel",
 )  # fmt: skip
 
 
