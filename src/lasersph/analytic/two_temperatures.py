@@ -16,7 +16,9 @@ one (`pulse_rise`), and that of an instant pulse along Talbot's contour, folded 
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -71,13 +73,16 @@ def linear_exchange(
     # the root for each time, in the logarithm of what is left
     start = np.log(T_e - r)
     found = [
-        r + np.exp(brentq(lambda x, t=t: elapsed(x) - t, start - 200.0, start, xtol=1e-14))
-        if t > 0.0
-        else T_e
+        r + np.exp(_root(lambda x, t=t: elapsed(x) - t, start - 200.0, start)) if t > 0.0 else T_e
         for t in np.ravel(np.asarray(time, np.float64))
     ]
     hot = np.reshape(np.array(found), np.shape(time))
     return hot, (energy - 0.5 * gamma * hot * hot) / C_l
+
+
+def _root(function: Callable[[float], float], low: float, high: float) -> float:
+    """Root of a function between two places of different sign, to rounding."""
+    return float(brentq(function, low, high, xtol=1e-14))  # pyright: ignore[reportArgumentType]
 
 
 @dataclass(frozen=True)
@@ -104,7 +109,7 @@ class HalfSpace:
         """Standard deviation of the pulse [s]."""
         return self.fwhm / (2.0 * np.sqrt(2.0 * np.log(2.0)))
 
-    def transforms(self, depth: float, s: NDArray[np.complex128]) -> tuple[NDArray, NDArray]:
+    def transforms(self, depth: float, s: NDArray[Any]) -> tuple[NDArray, NDArray]:
         """Laplace transforms of the rises of T_e and T_l by an instant pulse at t = 0 [K s]."""
         delay = 1.0 + s * self.C_l / self.coupling
         p = s * (self.C_e + self.C_l / delay)

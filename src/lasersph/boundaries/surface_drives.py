@@ -50,7 +50,7 @@ class SurfaceDrive(Model, ABC):
     def shape(self) -> SurfaceShape:
         """How it varies along the surface while it acts."""
 
-    def at(self, x: NDArray[np.floating], y: NDArray[np.floating] | float = 0.0) -> Array:
+    def at(self, x: NDArray[np.floating], y: Array | float = 0.0) -> Array:
         """The quantity at x and y [m] while it acts, any shape."""
         return self.shape.at(np.asarray(x, float), y)
 
@@ -66,7 +66,7 @@ class SurfaceDrive(Model, ABC):
             return float(self.start <= begin < last)
         return max(min(end, last) - max(begin, self.start), 0.0) / (end - begin)
 
-    def mean_over(self, places: Sequence[NDArray[np.floating]], begin: float, end: float) -> Array:
+    def mean_over(self, places: Sequence[Array], begin: float, end: float) -> Array:
         """The quantity at places along x, and y where there is one [m], averaged over the time from
         `begin` to `end` [s]."""
         return self.share_of(begin, end) * self.at(*places)

@@ -356,5 +356,5 @@ class LayeredLight:
                 backend.pointwise(absorb_light, fields, self.deposit, **table)
                 continue
             fields |= {"deposit": self.deposit}
-            reduce = {"reduce": ("sum",)} if k == last else {}
-            backend.pointwise(absorb_more, fields, self.deposit, **table, **reduce)
+            reduce = ("sum",) if k == last else (None,)
+            backend.pointwise(absorb_more, fields, self.deposit, reduce=reduce, **table)

@@ -1,4 +1,14 @@
-"""Groups of numbers of a material: melting, vaporization, electrons; each number sourced."""
+"""Groups of numbers of a material: melting, vaporization, electrons; each number sourced.
+
+Electrons have a heat capacity C_e(T_e) [J/(m^3 K)], a coupling G(T_e) to the lattice [W/(m^3 K)]
+and a conductivity: a number, or that of the metal at T_l less the share s of the lattice,
+
+    k_e = (1 - s) k(T_l) (T_e / T_l) (1 + a T_l) / (1 + a T_e^2 / T_l),    a = A / B
+
+that is C_e v^2 / (3 (A T_e^2 + B T_l)) with C_e ~ T_e [Ivanov2003, eq. (4)], scaled so that both
+temperatures together conduct as the metal does. Left out: other changes of k_e and G with the
+temperature of the lattice, and with magnetic order.
+"""
 
 from __future__ import annotations
 
@@ -172,18 +182,7 @@ class ElectronHeat(Law[VolumetricHeat]):
 
 
 class Electrons(Sourced):
-    """Electrons of a metal, for runs with two temperatures.
-
-        C_e(T_e)      heat capacity [J/(m^3 K)]: a number, a coefficient times T_e, or a table
-        G(T_e)        coupling to the lattice [W/(m^3 K)]
-        k_e(T_e, T_l) conductivity: a number; or that of the metal at T_l, less the lattice's share,
-
-            k_e = (1 - s) k(T_l) (T_e / T_l) (1 + a T_l) / (1 + a T_e^2 / T_l),    a = A / B
-
-    The second form is C_e v^2 / (3 (A T_e^2 + B T_l)) with C_e ~ T_e [Ivanov2003, eq. (4)], scaled
-    so that both temperatures together conduct as the metal does. Left out: changes of k_e and G
-    with the temperature of the lattice but for that, and with magnetic order.
-    """
+    """Electrons of a metal, for runs with two temperatures."""
 
     heat_capacity: ElectronHeat = Field(
         description="of the electrons, per volume: a number, a coefficient of their temperature, "

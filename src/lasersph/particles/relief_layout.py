@@ -97,7 +97,7 @@ def carry_over(
     shape, columns, places = layout.shape, prod(layout.shape), []
     for x, (low, high), n in zip(position[:-1], layers.bounds, shape, strict=True):
         places.append(np.clip(np.floor((x - low) * n / (high - low)).astype(np.intp), 0, n - 1))
-    place = np.ravel_multi_index(tuple(places), shape)
+    place = np.asarray(np.ravel_multi_index(tuple(places), shape), np.intp)
     members = columns_alike(place, columns, np.lexsort((-position[-1], place)))
     if members[0][1].shape[1] < 1:
         raise ValueError("a column holds no particle")
@@ -135,9 +135,9 @@ def carry_over(
     return new_volume, found
 
 
-def passed_on(excess: Array) -> list[Array]:
-    """What passes the sides of columns along each axis, toward larger places where positive, so
-    that nothing of their excess is left; none through the ends.
+def passed_on(excess: NDArray[np.floating]) -> list[Array]:
+    """Volumes that pass the sides of columns along each axis, toward larger places where positive,
+    so that nothing of their excess is left; none through the ends.
 
     Along a line that is the sum of the excess so far. On a grid it is the gradient of a potential,
     the least that does it, by cosine transforms.
@@ -149,7 +149,7 @@ def passed_on(excess: Array) -> list[Array]:
     waves = [2.0 * np.cos(np.pi * np.arange(n) / n) - 2.0 for n in excess.shape]
     eigenvalue = np.add.outer(*waves)
     eigenvalue[0, 0] = 1.0
-    potential = idctn(dctn(excess) / eigenvalue)
+    potential = np.asarray(idctn(np.asarray(dctn(excess)) / eigenvalue))
     return [np.diff(potential, axis=axis) for axis in range(excess.ndim)]
 
 

@@ -33,13 +33,13 @@ ELECTRONS = {
     "gold": Electrons(108.2, 1.67e16),
     "iron": Electrons(545.3, 3.81e18),
     "nickel": Electrons(316.6, 5.17e17),
-    "silver": Electrons(70.3, 3.60e15),
+    "silver": Electrons(70.3, 3.60e16),
     "steel": Electrons(334.2, 3.71e17),
     "titanium": Electrons(353.0, 1.46e17),
     "tungsten": Electrons(270.4, 1.05e17),
 }
 """C_e(5000 K)/5000 K and G(5000 K)."""
-SLOWEST = ELECTRONS["silver"]
+SLOWEST = ELECTRONS["gold"]
 """Taken for a metal that has no numbers here: none of the others couples as weakly."""
 ALLOYS = {"inconel": "nickel", "ti": "titanium"}
 """Metals that make up most of an alloy, by the first word of its name."""

@@ -292,7 +292,7 @@ def _electrons(case: Case, curve: CaloricCurve, heating: HeatingForecast) -> Ite
     if pulse > SHORT_PULSE * time:
         return
     than = "longer than" if time > pulse else "comparable with"
-    bound = "" if electrons else f', if "{material.name}" couples them as weakly as silver'
+    bound = "" if electrons else f', if "{material.name}" couples them as weakly as gold'
     yield (
         f"electrons are hotter than the lattice for about {format_quantity(time, 's', 2)}{bound}, "
         f"{than} the pulse of {format_quantity(pulse, 's', 3)}: this run has one temperature, and "

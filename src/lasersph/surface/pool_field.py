@@ -37,6 +37,8 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 Numbers = NDArray[np.int64]
 Parity = tuple[float, float]
+EVEN: Parity = (EVEN_PARITY, EVEN_PARITY)
+"""Parity of heights and temperatures. Exact: mirror images of scalars."""
 RING = 2
 """Columns around a pool to which its field goes on. Geometry: derivatives of fourth order reach two
 columns far, and so do blocks of differences of the fourth order around a column."""
@@ -158,7 +160,7 @@ class PoolField:
         return smoothed[: self.count]
 
     def smooth(
-        self, values: Array, parity: Parity = (EVEN_PARITY,) * 2, at_pins: float | None = None
+        self, values: Array, parity: Parity = EVEN, at_pins: float | None = None
     ) -> Array:
         """(size,) F of values (m,) at the columns.
 
@@ -172,10 +174,10 @@ class PoolField:
     @property
     def smoothed(self) -> Array:
         """(size,) F eta [m]."""
-        return self._solve(self.height, (EVEN_PARITY,) * 2, self.at_pins)
+        return self._solve(self.height, EVEN, self.at_pins)
 
     def derivative(
-        self, smoothed: Array, parity: Parity = (EVEN_PARITY,) * 2, axis: int = 0
+        self, smoothed: Array, parity: Parity = EVEN, axis: int = 0
     ) -> Array:
         """(m,) derivative of smoothed values (size,) along an axis."""
         return self._stencil(FIRST, smoothed, parity, axis) / self.widths[axis]
@@ -197,8 +199,8 @@ class PoolField:
     @property
     def curvature(self) -> Array:
         """(m,) kappa of the smoothed field [1/m], > 0 on a crest."""
-        f, even = self.smoothed, (EVEN_PARITY,) * 2
-        second = [self._stencil(SECOND, f, even, axis) / self.widths[axis] ** 2 for axis in (0, 1)]
+        f = self.smoothed
+        second = [self._stencil(SECOND, f, EVEN, axis) / self.widths[axis] ** 2 for axis in (0, 1)]
         # eta_xy by the product of both first differences
         weights = FIRST[:, None] * FIRST[None, :]
         mixed = np.sum(weights * f[self._around], axis=(1, 2)) / prod(self.widths)
@@ -315,7 +317,7 @@ class PoolField:
         self, parity: Parity, *, passes_pins: bool
     ) -> tuple[csr_matrix, csr_matrix, SuperLU]:
         """Matrix of the normal equations, that of the values at the rim, and factors."""
-        from scipy.sparse import diags
+        from scipy.sparse import csr_matrix, diags
         from scipy.sparse.linalg import splu
 
         weight = np.full(self.size, RING_WEIGHT)
@@ -333,7 +335,7 @@ class PoolField:
         factors = splu(
             A.tocsc(), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options=options
         )
-        return A, P, factors
+        return csr_matrix(A), P, factors
 
 
 def binomial(order: int) -> Array:

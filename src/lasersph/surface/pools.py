@@ -8,6 +8,7 @@ advances over the solid beside it as in a section, see `segments`.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -93,17 +94,16 @@ class SurfacePools:
             found[:, columns] = pool.slopes
         return found
 
-    def heights_after(self, step: float, flux: tuple[Array, ...]) -> Array:
+    def heights_after(self, step: float, flux: Sequence[Array]) -> Array:
         """Heights (count,) after `step` [s], with what flows through the sides of the columns
         [m^2/s]; none through sides between melt and solid, walls and planes of symmetry."""
         whole, label = self.whole, self._label.reshape(self.whole.shape)
         inside = []
         for axis, Q in enumerate(flux):
             along = np.moveaxis(label, axis, 0)
-            last, first = (along[-1:], along[:1]) if whole.ends[axis][0] == "periodic" else (0, 0)
-            edge = np.zeros_like(along[:1])
-            before = np.concatenate([edge + last, along])
-            after = np.concatenate([along, edge + first])
+            repeats = whole.ends[axis][0] == "periodic"
+            before = np.concatenate([repeats * along[-1:], along])
+            after = np.concatenate([along, repeats * along[:1]])
             open_sides = (before == after) & (before > 0)
             inside.append(np.where(np.moveaxis(open_sides, 0, axis), Q, 0.0))
         return whole.heights_after(step, *inside).ravel()

@@ -82,8 +82,8 @@ def find_conditions(
     # length that the particles of each column see, over its own, of rings over their area
     seen, places = backend.zeros(line.count), {"k": backend.asarray(np.arange(line.count), "index")}
     tables = {"row_start": members.row_start, "member": members.neighbor, "V": length}
-    area = {"inverse_area": line.inverse_area}
-    backend.pointwise(thickness_of, places, seen, **tables, **area)
+    inverse_area = line.inverse_area
+    backend.pointwise(thickness_of, places, seen, **tables, inverse_area=inverse_area)
     share = backend.to_host(seen) / (line.measure.ravel() * length_ratio * relative_viscosity)
     shape = line.shape
     mean = line.mean_of_neighbors(share.reshape(shape), molten.reshape(shape)).ravel()

@@ -227,8 +227,8 @@ def take_mass(
     # the part s of them that is lost, bounded
     places = {"k": backend.asarray(np.arange(count), "index")}
     tables: Constants = {"row_start": members.row_start, "member": members.neighbor}
-    area = {"inverse_area": line.inverse_area}
-    backend.pointwise(thickness_of, places, found, **tables, V=now.volume, **area)
+    tables |= {"inverse_area": line.inverse_area}
+    backend.pointwise(thickness_of, places, found, **tables, V=now.volume)
     thickness = np.maximum(backend.to_host(found), MIN_VOLUME_RATIO * spacing)
     share = np.clip(lost / thickness, 1.0 - 1.0 / MIN_VOLUME_RATIO, 1.0 - MIN_VOLUME_RATIO)
     # what particles have now, as fields and as tables of their neighbors in the column
@@ -240,7 +240,7 @@ def take_mass(
     tables |= {"v_j": now.velocity, "share": backend.asarray(share), "columns": float(count)}
 
     # m', h' and v' of every particle from the values before, and the heat that leaves in all
-    tables |= {"density": density, **area}
+    tables |= {"density": density}
     sums = (*(None for _ in new), "sum")
     (heat,) = backend.pointwise(recede, fields, (*new, None), reduce=sums, **tables)
     for values, target in zip(new, old, strict=True):

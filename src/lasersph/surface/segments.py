@@ -11,6 +11,7 @@ a film too thin to move, which keeps its height.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -100,7 +101,7 @@ class SurfaceSegments:
         """(1, count) slopes of the smoothed line."""
         return self.whole.slopes
 
-    def heights_after(self, step: float, flux: tuple[Array]) -> Array:
+    def heights_after(self, step: float, flux: Sequence[Array]) -> Array:
         """Heights (count,) after `step` [s], with what flows through the sides of the columns
         [m^2/s], none through ends that are no period."""
         found = self.whole.height.copy()

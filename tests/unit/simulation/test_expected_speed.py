@@ -24,6 +24,8 @@ COMPUTED = {
     ("texture-steel", ""): 22.31,  # lasersph run texture-steel: largest speed at the surface
     ("texture-aluminium", ""): 29.46,  # the same with particles.spacing=32nm
     ("texture-dots-steel", ""): 14.35,  # the same with particles.spacing=64nm --anyway
+    # lasersph run texture-steel-10ps with 16 nm, to 4 ns: largest speed at the surface
+    ("texture-steel-10ps", ""): 1.785,
     ("spot-steel", ""): 11.1,  # lasersph run spot-steel: largest speed at the surface
     ("spot-weld", ""): 3.5,  # lasersph run spot-weld: largest speed at the surface
     ("moving-film", ""): 1.146,  # lasersph run moving-film --quick

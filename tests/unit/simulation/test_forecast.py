@@ -38,6 +38,7 @@ LAYERS = {
     "texture-aluminium": (73, 31, 2799),
     "texture-dots-steel": (30, 15, 102008),
     "texture-steel": (58, 26, 5491),
+    "texture-steel-10ps": (47, 16, 7815),
 }
 """Layers, the finest of them, and particles of the shipped cases: a regression. The estimate of the
 melt decides on some, so that another estimate would make other runs."""

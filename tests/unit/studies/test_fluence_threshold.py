@@ -111,7 +111,7 @@ def test_impossible_events_are_refused_before_any_run(tmp_path):
     for of in ("melt", "vaporize"):
         with pytest.raises(ValueError, match=f"no threshold to {of}"):
             threshold(bare, of, tmp_path, run=None)
-    with pytest.raises(ValueError, match='choose "melt", "vaporize" or "ablate"'):
+    with pytest.raises(ValueError, match='choose "melt", "vaporize", "ablate" or "explode"'):
         threshold(case(fluence=1.0), "burn", tmp_path, run=None)
     with pytest.raises(ValueError, match="tolerance"):
         threshold(case(fluence=1.0), "melt", tmp_path, tolerance=0.0, run=run)

@@ -126,8 +126,8 @@ def test_imposed_wave():
 
 def test_imposed_bump():
     """mean + amplitude exp(-x^2/R^2) in the middle, whatever the particles' own temperature."""
-    found = imposed_bump(np.array([0.25, -3.0]), ALONG, 300.0, 2.0, 0.5)
-    assert found == 300.0 + 2.0 * exp(-0.25)
+    found = imposed_bump(np.array([0.25, -3.0]), (0.0,), 300.0, 2.0, 0.5)
+    assert found == pytest.approx(300.0 + 2.0 * exp(-0.25))
     heat = {"surface": "fixed-temperature", "surface_temperature": 300.0,
             "surface_temperature_bump": {"amplitude": 2.0, "radius": 0.25}}  # fmt: skip
     _, surface = surface_box(lambda x: 100.0 * x, heat=heat, cells=20)

@@ -62,18 +62,11 @@ class HeatRecipe(Recipe[HeatT, SolverT]):
             use_second_moment=settings.weights == "second-moment",
         )
         pressure = case.boundaries.pressure_of_surroundings if settings.has_vapor_flux else 0.0
-        solver: type[Conduction] = Conduction
+        others = settings, case.time, case.laser, pressure
+        named = {"recedes": recedes, "end_of_pulse": case.end_of_pulse}
         if settings.has_two_temperatures:
-            solver, body = TwoTemperatures, with_electrons(body)
-        return solver(
-            body,
-            settings,
-            case.time,
-            case.laser,
-            pressure,
-            recedes=recedes,
-            end_of_pulse=case.end_of_pulse,
-        )
+            return TwoTemperatures(with_electrons(body), *others, **named)
+        return Conduction(body, *others, **named)  # pyright: ignore[reportArgumentType]
 
     @property
     def light(self) -> Laser | None:

@@ -169,6 +169,10 @@ class ElectronStep:
     def _prepare(self, e: Array, h: Array, s: float) -> None:
         """Exchange of each particle, and the matrix of the electrons."""
         body, backend, v, pairs = self.body, self.backend, self.v, self.pairs
+        # pairs of particles that have moved since
+        if pairs.neighbors is not body.pairs.neighbors:
+            pairs.neighbors = body.pairs.neighbors
+            pairs.weights = backend.zeros(body.pairs.weights.shape[0])
         fields = {"e": e, "h": h, "m": body.particles["mass"]}
         out = tuple(v[name] for name in ("T", "T_l", "Q", "share", "C", "T_e"))
         backend.pointwise(

@@ -97,7 +97,8 @@ class TwoTemperatures(Conduction):
         lit = pulse is not None and pulse.active(state.time, state.time + step)
         had_two = state.has_two
         state.has_two = float(bool(state.has_two) or lit)
-        self.scheme = self.two if state.has_two else self.one
+        scheme: Any = self.two if state.has_two else self.one
+        self.scheme = scheme
         try:
             super().conduct(step, unclipped_step)
         except Exception:

@@ -317,9 +317,10 @@ class MeltPool:
     def _melt(self) -> bool:
         """Whether anything flows."""
         self._find_fluid()
-        if self.fluid_count == 0.0:
+        flows = self.fluid_count > 0.0 and not self.heat.holds_melt
+        if not flows:
             self.flow.stop_all()
-        return self.fluid_count > 0.0
+        return flows
 
     def _end_of_pause(self) -> float | None:
         """Start of the next pulse [s] where the pause before it is to be left out now."""

@@ -37,11 +37,11 @@ def driven(study: Study, name: str, film: dict) -> Panel:
     fine = np.linspace(1e-9, times[-1], 100)
     curve = liquid.amplitude(fine, drive)
     error = np.max(np.abs(found - wanted)) / np.max(np.abs(curve))
-    place = dict(film=name, spacing=spacing)
-    study.add("film", 100.0 * float(error), **place)
-    study.add("volume", displaced_share(one), **place)
+    study.add("film", 100.0 * float(error), film=name, spacing=spacing)
+    study.add("volume", displaced_share(one), film=name, spacing=spacing)
     if times[-1] >= PULSE:
-        study.add("speed", speed_at_quarter(one, periods), speed_of(liquid, periods), **place)
+        speeds = speed_at_quarter(one, periods), speed_of(liquid, periods)
+        study.add("speed", *speeds, film=name, spacing=spacing)
     return panel(f"{name}, 100 K for 20 ns", times, found, fine, curve)
 
 
@@ -86,7 +86,7 @@ def film_of(study: Study, periods: list[float], *settings: str) -> LiquidFilm:
     metal = case.material
     return LiquidFilm(
         case.domain.depth,
-        1e-6 / float(np.hypot(*(1.0 / period for period in periods))),
+        1e-6 / wave_of(periods),
         metal.density_reference,
         float(metal.viscosity_at(COLD)),
         float(metal.at("surface_tension", COLD)),
@@ -122,8 +122,13 @@ def speed_at_quarter(one: Run, periods: list[float]) -> float:
 def speed_of(film: LiquidFilm, periods: list[float]) -> float:
     """The same of the exact solution: the part along x of the wave vector [m/s]."""
     whole = film.velocity([PULSE], 0.0, Drive(temperature=100.0, end=PULSE))[0]
-    share = (1.0 / periods[0]) / float(np.hypot(*(1.0 / period for period in periods)))
-    return float(whole) * share
+    return float(whole) / periods[0] / wave_of(periods)
+
+
+def wave_of(periods: list[float]) -> float:
+    """Length of the wave vector over 2 pi, of periods along x and y."""
+    x, y = (1.0 / period for period in periods)
+    return float(np.hypot(x, y))
 
 
 def panel(title: str, times: Array, found: Array, fine: Array, curve: Array) -> Panel:

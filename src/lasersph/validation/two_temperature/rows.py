@@ -11,6 +11,9 @@ from lasersph.validation.study import Study
 
 PARTS = {"electrons": "electron_temperature", "lattice": "temperature"}
 
+DRAWN = 1e-6
+"""Depth of the figure [m]."""
+
 
 def compare(study: Study) -> None:
     """Judge the half space, the two limits and the energy."""
@@ -84,18 +87,15 @@ def energy(study: Study) -> None:
 
 
 def draw(study: Study, one: Run) -> None:
-    """Both temperatures over depth at the times of the plan, beside exact ones."""
+    """Both temperatures over depth at the last time but one, beside exact ones."""
+    time, shot = one.snapshots.times[-2], one.snapshots[len(one.snapshots) - 2]
+    depth = -shot["position"][-1]
+    order = np.argsort(depth)
+    places = depth[order][depth[order] < DRAWN]
     panels = []
     for number, (part, name) in enumerate(PARTS.items()):
-        curves = []
-        for time, shot in zip(one.snapshots.times, one.snapshots, strict=True):
-            if time == 0.0:
-                continue
-            depth = -shot["position"][-1]
-            order = np.argsort(depth)[::4]
-            places = depth[order]
-            rises = [pulse_rise(float(z), float(time), exact_body(), 8001)[number] for z in places]
-            T = 300.0 + np.ravel(rises)
-            curves += [exact(1e9 * places, T), marks(1e9 * places, shot[name][order], "SPH")]
-        panels.append(Panel("depth [nm]", f"temperature of the {part} [K]", curves))
+        rises = [pulse_rise(float(z), float(time), exact_body(), 8001)[number] for z in places[::4]]
+        curve = exact(1e9 * places[::4], 300.0 + np.ravel(rises))
+        points = marks(1e9 * places[::8], shot[name][order][: places.size : 8], "SPH")
+        panels.append(Panel("depth [nm]", f"{part} [K]", [curve, points]))
     study.draw("half-space", *panels)

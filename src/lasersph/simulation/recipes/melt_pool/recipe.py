@@ -80,6 +80,7 @@ class MeltPoolRecipe(HeatRecipe[MeltPoolSettings, MeltPool]):
             self.settings.dimensions,
             amount_dimension=self.case.geometry.amount_dimension,
             periodic=self.periodic,
+            has_electrons=self.settings.has_two_temperatures,
             box=self.case.flow is not None,
             topography=self._topography(),
             pulses=self.pulse_observer(),
