@@ -101,9 +101,7 @@ SPOT = ("lasersph run ablation-aluminium --quick --out runs/ablation",)
 SPOT_FROM = (_case("ablation-aluminium"), f"{RECIPES}.ablation")
 FILM = ("lasersph run moving-film --quick --out runs/film",)
 FILM_FROM = (_case("moving-film"), f"{RECIPES}.melt_pool")
-DOT = (
-    "lasersph run texture-dots-steel --set particles.spacing=64nm --anyway --out runs/dot",
-)
+DOT = ("lasersph run texture-dots-steel --set particles.spacing=64nm --anyway --out runs/dot",)
 DOT_FROM = (_case("texture-dots-steel"), f"{RECIPES}.melt_pool", _plots("surface_maps"))
 TEXTURE_FROM = (_case("texture-steel"), f"{RECIPES}.melt_pool", _plots("relief"))
 

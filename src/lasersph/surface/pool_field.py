@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 Numbers = NDArray[np.int64]
 Parity = tuple[float, float]
-EVEN: Parity = (EVEN_PARITY, EVEN_PARITY)
+EVEN_PARITIES: Parity = (EVEN_PARITY, EVEN_PARITY)
 """Parity of heights and temperatures. Exact: mirror images of scalars."""
 RING = 2
 """Columns around a pool to which its field goes on. Geometry: derivatives of fourth order reach two
@@ -160,7 +160,7 @@ class PoolField:
         return smoothed[: self.count]
 
     def smooth(
-        self, values: Array, parity: Parity = EVEN, at_pins: float | None = None
+        self, values: Array, parity: Parity = EVEN_PARITIES, at_pins: float | None = None
     ) -> Array:
         """(size,) F of values (m,) at the columns.
 
@@ -174,11 +174,9 @@ class PoolField:
     @property
     def smoothed(self) -> Array:
         """(size,) F eta [m]."""
-        return self._solve(self.height, EVEN, self.at_pins)
+        return self._solve(self.height, EVEN_PARITIES, self.at_pins)
 
-    def derivative(
-        self, smoothed: Array, parity: Parity = EVEN, axis: int = 0
-    ) -> Array:
+    def derivative(self, smoothed: Array, parity: Parity = EVEN_PARITIES, axis: int = 0) -> Array:
         """(m,) derivative of smoothed values (size,) along an axis."""
         return self._stencil(FIRST, smoothed, parity, axis) / self.widths[axis]
 
@@ -200,7 +198,10 @@ class PoolField:
     def curvature(self) -> Array:
         """(m,) kappa of the smoothed field [1/m], > 0 on a crest."""
         f = self.smoothed
-        second = [self._stencil(SECOND, f, EVEN, axis) / self.widths[axis] ** 2 for axis in (0, 1)]
+        second = [
+            self._stencil(SECOND, f, EVEN_PARITIES, axis) / self.widths[axis] ** 2
+            for axis in (0, 1)
+        ]
         # eta_xy by the product of both first differences
         weights = FIRST[:, None] * FIRST[None, :]
         mixed = np.sum(weights * f[self._around], axis=(1, 2)) / prod(self.widths)

@@ -73,7 +73,7 @@ class ViscousStep:
         viscosity: float,
         kind: str,
         terms: FlowTerms,
-        dimension: int = 2,
+        dimension: int,
     ) -> None:
         count, self.volume, self.terms = volume.shape[0], volume, terms
         self.backend, self.nu, self.is_implicit = backend, viscosity, kind == "implicit"

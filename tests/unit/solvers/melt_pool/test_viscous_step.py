@@ -28,7 +28,7 @@ SIDES = {"sides": "periodic"}
 def advanced(solver, block, v, step, kind, steps=1):
     """Velocities after viscous steps, and the iterations of the last."""
     backend, count = solver.backend, solver.body.count
-    viscous = ViscousStep(backend, solver.flow.viscous.volume, NU, kind, PLANE)
+    viscous = ViscousStep(backend, solver.flow.viscous.volume, NU, kind, PLANE, 2)
     velocity = backend.asarray(v)
     nothing, force = backend.zeros(count), backend.zeros((2, count))
     for _ in range(steps):
@@ -166,7 +166,7 @@ def test_solid_drags():
     backend, count = solver.backend, solver.body.count
     v = np.zeros((2, count))
     v[0] = backend.to_host(solver.kinds.fluid)
-    viscous = ViscousStep(backend, solver.flow.viscous.volume, 1e-6, "implicit", PLANE)
+    viscous = ViscousStep(backend, solver.flow.viscous.volume, 1e-6, "implicit", PLANE, 2)
     velocity, force = backend.asarray(v), backend.zeros((2, count))
     block = solver.flow.block
     extended = block.ghosts.extend_velocity(velocity, backend.zeros(count))
