@@ -23,6 +23,9 @@ CONTOURS = 8
 """Lines of equal height at most."""
 LINE_SHARE = 0.02
 """Largest speed over that of the run below which no streamlines are drawn."""
+HEIGHT, MAP_HEIGHT, BESIDE_MAP = 5.2, 4.45, 1.75
+"""Of a figure with a map, of the map in it, and width of labels and color bar beside it [in].
+Display: measured on a map that is as wide as it is high."""
 
 
 def has_maps(run: Run) -> bool:
@@ -183,7 +186,11 @@ def _painted(
 ) -> tuple[Figure, Axes, style.Unit]:
     """A map of values (ny, nx) with a color bar of a name; figure, axes, unit of the places."""
     unit = style.fitting_unit("m", max(np.max(np.abs(place.x)), np.max(np.abs(place.y))))
-    figure, (axes,) = style.new_figure(height=5.2)
+    left, right, bottom, top = edges(place)
+    figure, (axes,) = style.new_figure(height=HEIGHT)
+    # As wide as the map with its labels and color bar, so that no margin stays empty.
+    width = MAP_HEIGHT * (right - left) / (top - bottom) + BESIDE_MAP
+    figure.set_size_inches(min(width, style.WIDTH), HEIGHT)
     image = style.paint(axes, values, edges(place), unit, **options)
     style.label(axes, f"x [{unit.name}]", f"y [{unit.name}]")
     style.color_bar(axes, image, name, aspect=24.0)
