@@ -87,12 +87,12 @@ def b_spline_around(place, center):
 
 def first_near(center):
     """First column that a B-spline around a place reaches."""
-    return floor(center - 1.5)
+    return int(floor(center - 1.5))  # noqa: RUF046 (in a loop floor is a real number)
 
 
 def beyond_near(center):
     """Column after the last one that it reaches."""
-    return ceil(center + 1.5)
+    return int(ceil(center + 1.5))  # noqa: RUF046
 
 
 def side_center(k, along, columns):
