@@ -8,9 +8,11 @@ from particle_square import held_front, right_side, system
 from spot_pools import half_ball, spot_pool
 
 from lasersph import compute
+from lasersph.case import load_case
 from lasersph.compute.graph import GRAPHS, checked_graphs
 from lasersph.compute.kept_graph import KeptGraph
 from lasersph.linear_solvers.conjugate_gradient import ConjugateGradient
+from lasersph.simulation.recipes import recipe_of
 
 MOVING = (
     "solver.flow.surface=moving",
@@ -73,6 +75,13 @@ def moving_spot(backend):
     return found_by(spot_pool(half_ball, backend=backend, material=metal, solver=solver)[1])
 
 
+def heated_cube(backend):
+    """A box in three dimensions with a warm and a cold wall."""
+    settings = ("particles.spacing=0.125 m", "time.end=1 s", "time.step=0.1 s")
+    solver = recipe_of(load_case("heated-cube", settings)).build(backend)
+    return found_by(solver)
+
+
 def stiff_heat(backend):
     """Linear systems that factors and multigrid precondition."""
     operator, _ = system(backend, 24)
@@ -87,7 +96,7 @@ def stiff_heat(backend):
 
 
 SPOTS = (spot_in_section, moving_spot)
-CASES = (heated_box, flat_pool, lit_pool, moving_pool, lit_steel, *SPOTS, stiff_heat)
+CASES = (heated_box, heated_cube, flat_pool, lit_pool, moving_pool, lit_steel, *SPOTS, stiff_heat)
 
 
 @pytest.fixture(scope="module")

@@ -160,7 +160,7 @@ def test_wave_of_a_dirichlet_surface():
     conditions = conditions_of(heat, surface="free-surface")
     rules, _ = rules_at(conditions, [*NEAR["surface"], *NEAR["bottom"]])
     assert rules.varies.tolist() == [True, False] and rules.wall_temperature[0] == 300.0
-    assert conditions.varying_temperature(np.array([0.5, 0.0])) == pytest.approx([290.0, 310.0])
+    assert conditions.varying_temperature(np.array([[0.5, 0.0]])) == pytest.approx([290.0, 310.0])
 
 
 def test_corner_of_a_dirichlet_and_an_insulated_face():
