@@ -6,13 +6,14 @@ the volume below is kept to rounding:
 
     d eta_k/dt = -sum over axes (Q_k+1/2 - Q_k-1/2)/dx - m_k S_k/rho,   S = sqrt(1 + |grad eta|^2)
 
-with Q per width of a side. Slopes and curvature, the sum over both directions
+with Q per width of a side. Slopes and curvature, of a grid the sum over both directions
 
     kappa = -div(grad eta / S) = -sum_a [(S^2 - eta_a^2) eta_aa - sum_b eta_a eta_b eta_ab]/S^3,
 
-are those of the smoothed field F eta, see `smoothing`: all waves are pulled back by surface
-tension, short ones less. A parabola fitted around each point does not do that: its second
-derivative has the wrong sign for some short waves, which then grow.
+are those of the smoothed field F eta, of a line see `smoothing`; a grid is smoothed pool by pool,
+see `pool_field`. All waves are pulled back by surface tension, short ones less. A parabola fitted
+around each point does not do that: its second derivative has the wrong sign for some short waves,
+which then grow.
 
 In a section (r, z) columns are rings: with their areas 2 pi r dx and sides 2 pi r,
 
@@ -218,12 +219,7 @@ class HeightField:
         A wave of length lambda loses the part share (lambda_c/lambda)^(2n) of its height where that
         is small.
         """
-        change = self.smoothed - self.height
-
-        # no volume may come or go: the mean change is taken back, none of it at the pins
-        measure = self.measure
-        change -= self._raised * (np.sum(measure * change) / np.sum(measure * self._raised))
-        self.height = self.height + min(share, 1.0) * change
+        self.height = drawn_to(self.smoothed, self.height, self._raised, self.measure, share)
 
     @cached_property
     def _raised(self) -> Array:
@@ -299,6 +295,22 @@ class HeightField:
         return along_axis(
             partial(window_sum, weights=weights), axis, self.extend(values, parity, axis)
         )
+
+
+def drawn_to(
+    smoothed: Array, height: Array, raised: Array, measure: Array | float, share: float
+) -> Array:
+    """Heights [m] after `share` (at most 1) of the way to the smoothed ones.
+
+    No volume may come or go: the change summed is taken back, by `raised`, which is 1 far from the
+    pins and 0 at them, so that none of it is taken there.
+
+    Args:
+        measure: area of each column over that of the others.
+    """
+    change = smoothed - height
+    change -= raised * (np.sum(measure * change) / np.sum(measure * raised))
+    return height + min(share, 1.0) * change
 
 
 def curvature_of(

@@ -21,7 +21,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from lasersph.surface.height_field import FIRST, SECOND, HeightField, curvature_of, length_ratio
+from lasersph.surface.height_field import (
+    FIRST,
+    SECOND,
+    HeightField,
+    curvature_of,
+    drawn_to,
+    length_ratio,
+)
 from lasersph.surface.smoothing import (
     EVEN_PARITY,
     ORDER,
@@ -209,10 +216,8 @@ class PoolField:
 
     def damp_short_waves(self, share: float) -> None:
         """Take `share` (at most 1) of the way to the smoothed field of the same volume."""
-        change = self.at_columns(self.smoothed) - self.height
-        # no volume may come or go: the change summed is taken back, none of it at the rim
-        change -= self._raised * (np.sum(change) / np.sum(self._raised))
-        self.height = self.height + min(share, 1.0) * change
+        smoothed = self.at_columns(self.smoothed)
+        self.height = drawn_to(smoothed, self.height, self._raised, 1.0, share)
 
     @cached_property
     def _raised(self) -> Array:
