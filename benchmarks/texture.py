@@ -113,6 +113,7 @@ def direct(folder: Path, more: Sequence[str]) -> int:
     print(f"direct: {clock:.1f} minutes, {busy:.1f} minutes of processors")
     whole = read_cell(open_run(out), 1e-6 * wide)
     cells = read_table(folder / "assembled" / "cells", 1e-6 * PERIOD_UM)
+    assert isinstance(cells, CellTable)
     half = whole.x < 0.5e-6 * wide
     x = whole.x[half]
     local = spot(1e-6 * wide, float(cells.fluence[-1])).at
@@ -141,7 +142,9 @@ def recover(folder: str | None = None) -> int:
     """Count in how many draws the 95 % intervals of both commands hold the hidden factor."""
     cells, found = table(), {"compare": 0, "calibrate": 0}
     if folder is not None:
-        cells = read_relief(Path(folder)).table
+        kept = read_relief(Path(folder))
+        assert isinstance(kept, Relief) and isinstance(kept.table, CellTable)
+        cells = kept.table
     highest, period = float(cells.fluence[-1]), cells.period
     x = np.arange(-24e-6, 24.01e-6, 0.125e-6)
     fluence = spot(center=0.9 * highest).at(*np.meshgrid(x, x))

@@ -117,7 +117,8 @@ def carry_over(
     wanted = np.bincount(layout.column, new_volume, columns)
     grid = means.reshape(*means.shape[:2], *shape)
     content = held.reshape(shape) * grid
-    for axis, passed in enumerate(passed_on((held - wanted).reshape(shape))):
+    excess = np.asarray((held - wanted).reshape(shape), np.float64)
+    for axis, passed in enumerate(passed_on(excess)):
         values, change = (np.moveaxis(one, axis + 2, -1) for one in (grid, content))
         passed = np.moveaxis(passed, axis, -1)
         carried = passed * np.where(passed > 0.0, values[..., :-1], values[..., 1:])
@@ -135,7 +136,7 @@ def carry_over(
     return new_volume, found
 
 
-def passed_on(excess: NDArray[np.floating]) -> list[Array]:
+def passed_on(excess: Array) -> list[Array]:
     """Volumes that pass the sides of columns along each axis, toward larger places where positive,
     so that nothing of their excess is left; none through the ends.
 
@@ -149,7 +150,7 @@ def passed_on(excess: NDArray[np.floating]) -> list[Array]:
     waves = [2.0 * np.cos(np.pi * np.arange(n) / n) - 2.0 for n in excess.shape]
     eigenvalue = np.add.outer(*waves)
     eigenvalue[0, 0] = 1.0
-    potential = np.asarray(idctn(np.asarray(dctn(excess)) / eigenvalue))
+    potential = np.asarray(idctn(np.asarray(dctn(excess)) / eigenvalue), np.float64)
     return [np.diff(potential, axis=axis) for axis in range(excess.ndim)]
 
 

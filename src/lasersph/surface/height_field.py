@@ -51,7 +51,8 @@ from lasersph.surface.smoothing import (
 
 Array = NDArray[np.float64]
 Parity = float | tuple[float, ...]
-Pins = tuple[tuple[float | Array, float | Array], ...]
+Pin = float | Array
+Pins = tuple[tuple[Pin, Pin], ...]
 FIRST = np.array([1.0, -8.0, 0.0, 8.0, -1.0]) / 12.0
 SECOND = np.array([-1.0, 16.0, -30.0, 16.0, -1.0]) / 12.0
 """Central differences of fourth order, times dx and dx^2."""
@@ -260,7 +261,7 @@ class HeightField:
 
         unknown = ~known.reshape(self.shape)
         nearest = distance_transform_edt(unknown, return_distances=False, return_indices=True)
-        return values.reshape(self.shape)[tuple(nearest)].ravel()
+        return values.reshape(self.shape)[tuple(np.asarray(nearest))].ravel()
 
     def extend(self, values: Array, parity: float = EVEN_PARITY, axis: int = 0) -> Array:
         """Values with two more at either end of an axis."""
@@ -275,13 +276,13 @@ class HeightField:
             total, weight = (along_axis(sums, axis, part) for part in (total, weight))
         return total / np.maximum(weight, 1.0)
 
-    def _solve(self, values: Array, parity: float, pins: tuple | None) -> Array:
+    def _solve(self, values: Array, parity: float, pins: tuple[Pin, Pin] | None) -> Array:
         """F of values; its factors are made at the first call."""
         key = parity, pins is not None
         if key not in self._smoothing:
             line = self.shape[0], self.widths[0], self.ends[0], self.cutoff
             self._smoothing[key] = smoothing_of(*line, parity, passes_pins=key[1])
-        given = [] if pins is None else [pins[end] for end in pinned_ends(self.ends[0])]
+        given = [] if pins is None else [float(pins[end]) for end in pinned_ends(self.ends[0])]
         return self._smoothing[key].solve(values, sqrt(PIN_WEIGHT) * np.array(given, float))
 
     def _parities(self, parity: Parity) -> tuple[float, ...]:

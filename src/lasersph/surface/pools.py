@@ -116,7 +116,9 @@ def joined_columns(marks: Marks, whole: HeightField) -> NDArray[np.int64]:
     from scipy.sparse import csr_matrix
     from scipy.sparse.csgraph import connected_components
 
-    found, count = label(marks)
+    found = np.zeros(marks.shape, np.int64)
+    label(marks, output=found)
+    count = int(found.max(initial=0))
     pairs = [
         np.stack([np.take(found, 0, axis), np.take(found, -1, axis)])
         for axis, ends in enumerate(whole.ends)

@@ -73,7 +73,7 @@ class Smoothed(Protocol):
         """Smoothed values of the columns."""
         ...
 
-    def derivative(self, smoothed: HostArray, parity: Any = ..., axis: int = ...) -> HostArray:
+    def derivative(self, smoothed: HostArray, /, parity: Any = ..., axis: int = ...) -> HostArray:
         """Derivative of smoothed values along an axis at the columns."""
         ...
 

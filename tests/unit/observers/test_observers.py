@@ -180,6 +180,13 @@ def test_peak_takes_the_middle_of_its_stand():
     for time, value in enumerate([1.0, 2.0, 2.0 * (1 - 1e-15), 2.0, 1.5]):
         peak.update(value, float(time))
     assert (peak.value, peak.first, peak.time) == (2.0, 1.0, 2.0)
+    # one cell less for a while still counts; a second pulse as large does not move the time
+    for time, value in ((5.0, 1.9), (6.0, 2.0)):
+        peak.update(value, time)
+    assert peak.time == 3.5
+    for time, value in ((7.0, 0.0), (99.0, 2.0)):
+        peak.update(value, time)
+    assert peak.time == 3.5
 
 
 def test_snapshot_times():

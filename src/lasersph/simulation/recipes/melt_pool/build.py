@@ -35,7 +35,7 @@ from lasersph.surface.moving_surface import MovingSurface
 from lasersph.surface.pressure_condition import SurfaceLiquid
 from lasersph.surface.pressure_gradient import DifferenceGradient, SymmetricGradient
 from lasersph.surface.riding_surface import RidingSurface
-from lasersph.surface.smoothing import End
+from lasersph.surface.smoothing import End, Ends
 from lasersph.surface.surface import Surface
 
 
@@ -70,7 +70,7 @@ def with_flow(case: Case, settings: MeltPoolSettings, layers: Layers, heat: Cond
     surface: Surface
     support = float(static.support.min())
     if case.surface_moves:
-        line = _surface_line(case, conditions, filling.fine_surface)
+        line = _surface_line(case, conditions, tuple(map(int, layers.fine_only.columns[:, 0])))
         _raise_particles(case, body, static, line)
         moving = RidingSurface if is_section else MovingSurface
         surface = moving(
@@ -150,19 +150,15 @@ def with_flow(case: Case, settings: MeltPoolSettings, layers: Layers, heat: Cond
     return solver
 
 
-def _surface_line(case: Case, conditions: FaceConditions, fine_surface: int) -> HeightField:
-    """Columns of a surface that moves, at their heights at the start.
+def _surface_line(case: Case, conditions: FaceConditions, shape: tuple[int, ...]) -> HeightField:
+    """Columns of a surface that moves, of a shape along its axes, at their heights at the start.
 
     It goes on as the flow does beyond its ends; at walls it is pinned at its height there.
     """
     sides = conditions.box[:-1]
-    # columns are squares: as many along each axis as its length says
-    total = np.prod([high - low for low, high in sides])
-    width = float((total / fine_surface) ** (1.0 / len(sides)))
-    shape = tuple(round((high - low) / width) for low, high in sides)
     widths = tuple((high - low) / n for (low, high), n in zip(sides, shape, strict=True))
     kinds: dict[str, End] = {"symmetry": "mirror", "free-slip": "mirror", "periodic": "periodic"}
-    ends = tuple(
+    ends: tuple[Ends, ...] = tuple(
         (kinds.get(conditions.flow_kind(a), "pinned"), kinds.get(conditions.flow_kind(b), "pinned"))
         for a, b in conditions.faces[:-1]
     )
@@ -175,8 +171,8 @@ def _surface_line(case: Case, conditions: FaceConditions, fine_surface: int) -> 
     if start is not None:
         line.height = _mean_heights(case, line.places, widths)
         line.pins = tuple(
-            tuple(_heights_at(start, line, axis, end) for end in pair)
-            for axis, pair in enumerate(sides)
+            (_heights_at(start, line, axis, low), _heights_at(start, line, axis, high))
+            for axis, (low, high) in enumerate(sides)
         )
     return line
 
