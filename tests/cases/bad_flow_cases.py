@@ -25,7 +25,7 @@ BAD_FLOW_CASES = {
     "too much shifting": (KIND, KIND + "\nshifting = 3", ":29: solver.shifting: must be at most 0.5, got 3"),
     "a box that melts": ("[material]\n", '[material]\nbase = "steel-304-demuth"\n', ':28: solver.phase_change: a box of [solver.flow] is all fluid, but "steel-304-demuth" melts; write phase_change = false'),
     # sides
-    "unknown side": (SIDE, 'top = "no-slip"', ":35: solver.flow.top: unknown key; known here: left, right, bottom, surface, initial, initial_surface"),
+    "unknown side": (SIDE, 'top = "no-slip"', ":35: solver.flow.top: unknown key; known here: left, right, front, back, sides, bottom, surface, initial, initial_surface"),
     "unknown kind of side": (SIDE, 'bottom = "noslip"', ':35: solver.flow.bottom: must be "no-slip" or "moving-wall" or "free-slip" or "symmetry" or "periodic" or "free-surface" or "flat" or "moving", got "noslip"; do you mean "no-slip"?'),
     "side as a number": (SIDE, "bottom = 0", ':35: solver.flow.bottom: must be a word or a table; write e.g. "no-slip"'),
     "periodic on one side": (SIDE, 'bottom = "periodic"', ':35: solver.flow.bottom: periodic on one side only; write surface = "periodic" too, or another kind here'),

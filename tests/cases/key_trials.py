@@ -43,11 +43,13 @@ def alone(*values: str, beside: tuple[str, ...] = NONE) -> list[Trial]:
 def faces() -> dict[str, list[Trial]]:
     """Trials of the kinds of faces, of their temperatures and fluxes."""
     found: dict[str, list[Trial]] = {}
-    for face in ("bottom", "sides", "left", "right"):
+    for face in ("bottom", "sides", "left", "right", "front", "back"):
         key, stem = f"boundaries.{face}", "side" if face == "sides" else face
-        held = [(f"{key}={kind}",) for kind in ("fixed-temperature", "wall")]
-        flowing = (f"{key}=prescribed-flux", f"boundaries.{stem}_flux=1e10 W/m^2")
-        found[key] = alone("fixed-temperature", "wall", beside=(WARM,))
+        # faces normal to y are those of a body
+        space = SOLID if face in ("front", "back") else NONE
+        held = [(*space, f"{key}={kind}") for kind in ("fixed-temperature", "wall")]
+        flowing = (*space, f"{key}=prescribed-flux", f"boundaries.{stem}_flux=1e10 W/m^2")
+        found[key] = alone("fixed-temperature", "wall", beside=space or (WARM,))
         found[f"boundaries.{stem}_temperature"] = [("1300 K", one) for one in held]
         found[f"boundaries.{stem}_flux"] = alone("5e10 W/m^2", beside=flowing)
     return found
@@ -191,16 +193,21 @@ LASER = {
     "laser.spot.extent": alone("whole", beside=(*ENERGY, CELL[-1].replace("50 um", "2.4 um"))),
     "laser.spot.place": alone("['9 um', '0 um']", beside=CELL),
 }  # fmt: skip
+WALLS = dict.fromkeys(("left", "right", "bottom", "surface"), NONE) | dict.fromkeys(
+    ("front", "back", "sides"), ("solver.dimensions=3", "particles.spacing=200 mm")
+)
+"""Walls of a box, those of a body beside what makes it one."""
 SOLVER = {
     **{
-        f"solver.flow.{side}": alone("{ kind = 'moving-wall', velocity = '1 m/s' }")
-        for side in ("left", "right", "bottom", "surface")
+        f"solver.flow.{side}": alone("{ kind = 'moving-wall', velocity = '1 m/s' }", beside=space)
+        for side, space in WALLS.items()
     },
     **{
         f"solver.flow.{side}.velocity": alone(
-            "2 m/s", beside=(f"solver.flow.{side}={{ kind = 'moving-wall', velocity = '1 m/s' }}",)
+            "2 m/s",
+            beside=(*space, f"solver.flow.{side}={{ kind = 'moving-wall', velocity = '1 m/s' }}"),
         )
-        for side in ("left", "right", "bottom", "surface")
+        for side, space in WALLS.items()
     },
     "solver.flow.initial": alone("{ kind = 'taylor-green', speed = '1 m/s' }"),
     "solver.flow.initial.speed": alone(
@@ -226,6 +233,13 @@ CAP_NAMES = (
 """A wave, and a cap instead of it."""
 
 
+IN_SPACE = (
+    *("solver.dimensions=3", "domain.breadth=2.4 um", "particles.spacing=100 nm"),
+    *("solver.flow.front=symmetry", "solver.flow.back=symmetry"),
+)
+"""The film in three dimensions."""
+
+
 def waves() -> dict[str, list[Trial]]:
     """Trials of what is imposed on a surface along x."""
     given = {"temperature": "50 K", "pressure": "1 kPa", "mass_flux": "10 kg/(m^2 s)"}
@@ -238,11 +252,13 @@ def waves() -> dict[str, list[Trial]]:
         changes |= {"start": "0.4 ns", "end": "0.4 ns"}
         for part, value in changes.items():
             found[f"{key}.{part}"] = alone(value, beside=(wave,))
+        found[f"{key}.period_y"] = alone("2.4 um", beside=(*IN_SPACE, wave))
     found |= bumps(given)
     start = "solver.flow.initial_surface={ amplitude = '10 nm', period = '5.05 um' }"
     found["solver.flow.initial_surface"] = alone(start.partition("=")[2])
     found["solver.flow.initial_surface.amplitude"] = alone("15 nm", beside=(start,))
     found["solver.flow.initial_surface.period"] = alone("2.525 um", beside=(start,))
+    found["solver.flow.initial_surface.period_y"] = alone("2.4 um", beside=(*IN_SPACE, start))
     bump, cap = (start.replace(*names) for names in (("period = '5", "radius = '2"), CAP_NAMES))
     found["solver.flow.initial_surface.radius"] = alone("1 um", beside=(bump,))
     found["solver.flow.initial_surface.cap_height"] = alone("5 nm", beside=(cap,))
@@ -288,6 +304,12 @@ SULFUR = (
 )
 
 
+GIVEN_ELECTRONS = (
+    "material.electrons={ heat_capacity = '3e5 J/(m^3 K)', coupling = '1e18 W/(m^3 K)', "
+    "conductivity = '80 W/(m K)' }"
+)
+
+
 def properties() -> dict[str, Property]:
     """Trials of a metal's properties, each in a case that needs it."""
     found: dict[str, Property] = {
@@ -306,6 +328,20 @@ def properties() -> dict[str, Property]:
         "kinematic_viscosity": ("box", "1e-6 m^2/s", NONE),
         "sulfur": ("film", "0.01 %", SULFUR),
     }
+    electrons = {
+        "heat_capacity": "2e5 J/(m^3 K)",
+        "coupling": "1e18 W/(m^3 K)",
+        "conductivity": "40 W/(m K)",
+        "scattering": "6e-5 1/K",
+        "lattice_share": "0.5",
+        "ballistic_range": "0.5 um",
+    }
+    beside = (*MELT, *DEEP, "solver.heat=two-temperature", "time.step=10 ps")
+    found |= {f"electrons.{key}": ("column", value, beside) for key, value in electrons.items()}
+    # given as a law, instead of by what scatters them, for a metal without electrons of its own
+    law = tuple(one for one in beside if not one.startswith("material="))
+    law += ("material={ base = 'steel-316l' }", "laser.wavelength=1064 nm", GIVEN_ELECTRONS)
+    found["electrons.conductivity"] = ("column", "40 W/(m K)", law)
     in_film = {
         "density": "7000 kg/m^3",
         "conductivity": "20 W/(m K)",
