@@ -367,9 +367,11 @@ def binomial_sum(values: Array, low: End, high: End) -> Array:
     """Binomial sums of five values of a line; beyond the ends as far as it goes on there."""
     modes: dict[End, Literal["symmetric", "wrap", "constant"]]
     modes = {"mirror": "symmetric", "periodic": "wrap", "pinned": "constant"}
+    # each end goes on from the line itself, not from what was put before it
     others = ((0, 0),) * (values.ndim - 1)
-    padded = np.pad(values, ((2, 0), *others), mode=modes[low])[: values.shape[0] + 2]
-    return window_sum(np.pad(padded, ((0, 2), *others), mode=modes[high]), BINOMIAL)
+    before = np.pad(values, ((2, 0), *others), mode=modes[low])[:2]
+    after = np.pad(values, ((0, 2), *others), mode=modes[high])[-2:]
+    return window_sum(np.concatenate([before, values, after]), BINOMIAL)
 
 
 def _extrapolate(values: Array) -> Array:

@@ -182,3 +182,18 @@ def test_first_harmonic():
         k = 2.0 * np.pi / PERIOD
         found.height = 3e-9 * np.cos(k * found.centers()) * np.sinc(found.widths[0] / PERIOD) + 1e-9
         assert found.first_harmonic(PERIOD) == pytest.approx(3e-9, rel=1e-3)
+
+
+def test_binomial_sums_go_around_a_period():
+    """A column at each end sees the two beyond it at the other end; a line turned is the same."""
+    found = line(("periodic", "periodic"), 12)
+    values = np.zeros(12)
+    values[0], values[1] = 16.0, 32.0
+    everywhere = np.ones(12, bool)
+    means = found.mean_of_neighbors(values, everywhere)
+    # weights 1, 4, 6, 4, 1 over their sum
+    assert means[-2:] == pytest.approx([1.0, 4.0 + 2.0])
+    assert means[:4] == pytest.approx([6.0 + 8.0, 4.0 + 12.0, 1.0 + 8.0, 2.0])
+    for shift in (1, 5, 11):
+        turned = found.mean_of_neighbors(np.roll(values, shift), everywhere)
+        assert turned == pytest.approx(np.roll(means, shift))

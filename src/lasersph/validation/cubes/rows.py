@@ -7,6 +7,7 @@ from types import SimpleNamespace
 import numpy as np
 
 from lasersph.output import Run
+from lasersph.validation.drawing import Panel, exact, marks
 from lasersph.validation.natural_convection.rows import diffusivity
 from lasersph.validation.study import HOME, Study
 from lasersph.validation.tables import read_table
@@ -24,7 +25,7 @@ def compare(study: Study) -> None:
     )
     _below_lid(study, lid)
     _between_walls(study, convection)
-    _vortices(study, vortices)
+    study.draw("cubes", *_vortices(study, vortices), height=3.4)
 
 
 def _below_lid(study: Study, plan: SimpleNamespace) -> None:
@@ -69,13 +70,16 @@ def _between_walls(study: Study, plan: SimpleNamespace) -> None:
             study.add("balance", abs(cold / warm - 1.0), judge=judge, **words)
 
 
-def _vortices(study: Study, plan: SimpleNamespace) -> None:
-    """Energy over that of the start at each Reynolds number, which is 1/nu."""
+def _vortices(study: Study, plan: SimpleNamespace) -> list[Panel]:
+    """Energy over that of the start at each Reynolds number, which is 1/nu; a panel of each."""
+    panels = []
     table, side = read_table(TABLES / "vortices.csv"), 2.0 * np.pi
     # an eighth of a period of 2 pi, whose faces are planes of symmetry
     faces = [f"solver.flow.{face}=symmetry" for face in SIDES]
     for reynolds in plan.reynolds:
-        for count in plan.particles:
+        own = table["Re"] == reynolds
+        curves = [exact(table["t"][own], table["E_over_E0"][own])]
+        for number, count in enumerate(plan.particles):
             one = study.run(
                 f"vortices-{reynolds}-{count}",
                 *(
@@ -93,10 +97,14 @@ def _vortices(study: Study, plan: SimpleNamespace) -> None:
             )
             judge = count == plan.particles[-1]
             for t in plan.times:
-                chosen = (table["Re"] == reynolds) & (table["t"] == t)
                 words = {"Re": reynolds, "count": count, "t": t}
-                exact = float(table["E_over_E0"][chosen][0])
-                study.add("energy", energy_share(one, t), exact, judge=judge, **words)
+                expected = float(table["E_over_E0"][own & (table["t"] == t)][0])
+                study.add("energy", energy_share(one, t), expected, judge=judge, **words)
+            times = np.linspace(0.0, plan.times[-1], 9)
+            shares = np.array([energy_share(one, t) for t in times])
+            curves.append(marks(times, shares, f"{count} a period", number))
+        panels.append(Panel("time [s]", "energy over the first", curves, f"Re {reynolds}"))
+    return panels
 
 
 def energy_share(one: Run, time: float) -> float:
