@@ -219,7 +219,8 @@ class DeviceArray(NDArrayOperatorsMixin):
         if self.is_known:
             return self._fetched()[index]
         if isinstance(particles, int | np.integer):
-            return self._listed(array, np.array([particles]))[..., 0][()]
+            found = self._listed(array, np.array([particles]))[..., 0]
+            return found[()] if component == _ALL else found[component]
         if isinstance(particles, np.ndarray) and particles.dtype.kind in "iu":
             found = self._listed(array, particles)
             return found if component == _ALL else found[component]

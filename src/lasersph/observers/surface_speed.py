@@ -15,6 +15,8 @@ below x_m.
 
 from __future__ import annotations
 
+from functools import reduce
+
 import numpy as np
 
 from lasersph.observers.flow_speed import flow_of
@@ -185,8 +187,9 @@ def below_the_peak(view: View, flow: FlowView, place: int) -> tuple[float, ...]:
     # largest speed against the surface's, on its side
     u = np.atleast_2d(flow.surface_velocity)[:, place]
     direction = u / np.sqrt(u @ u) if np.any(u) else np.eye(u.size)[0]
-    side = is_beside(view.position[:-1], at)
-    against = np.max(-(direction @ flow.velocity[:-1]), where=flow.flows & side, initial=0.0)
+    side = is_beside(view.position, at)
+    opposed = -part_along(direction, flow.velocity)
+    against = np.max(opposed, where=flow.flows & side, initial=0.0)
 
     # the layer below, its thickness, and the speed one spacing down
     depth, along = velocity_below(view, flow, place, direction)
@@ -199,8 +202,14 @@ def below_the_peak(view: View, flow: FlowView, place: int) -> tuple[float, ...]:
 
 
 def is_beside(places: np.ndarray, at: np.ndarray) -> np.ndarray:
-    """Which of some places (d - 1, m) lie on the side of the axis on which `at` (d - 1,) lies."""
-    return at @ places >= 0.0
+    """Which of some places (d, m) lie on the side of the axis on which `at` (d - 1,) lies."""
+    return part_along(at, places) >= 0.0
+
+
+def part_along(direction: np.ndarray, vectors: np.ndarray) -> np.ndarray:
+    """Horizontal part (m,) of vectors (d, m) along a direction (d - 1,), component by component: so
+    it is computed where the vectors are, on a graphics card, too."""
+    return sum(direction[k] * vectors[k] for k in range(direction.size))
 
 
 def velocity_below(
@@ -218,7 +227,8 @@ def velocity_below(
     step = spacing_at(view, flow)
     at = view.position[:-1, flow.surface[place]]
     # a column of particles around the place, as deep as the liquid there
-    beside = np.max(np.abs(view.position[:-1] - at[:, None]), axis=0)
+    apart = (np.abs(view.position[k] - at[k]) for k in range(at.size))
+    beside = reduce(np.maximum, apart)
     near = np.flatnonzero(beside < COLUMN_WIDTH * step)
     wet = near[flow.flows[near]]
     over = wet[beside[wet] < step]
@@ -246,7 +256,7 @@ def zero_of(depth: np.ndarray, values: np.ndarray) -> float:
 def mean_gradient(view: View, flow: FlowView, at: np.ndarray) -> float:
     """Mean of |dT/dx| over the fluid surface on the side of the axis on which `at` (d - 1,) lies
     [K/m]."""
-    chosen = flow.flows[flow.surface] & is_beside(view.position[:-1, flow.surface], at)
+    chosen = flow.flows[flow.surface] & is_beside(view.position[:, flow.surface], at)
     return float(np.mean(np.abs(flow.surface_gradient[chosen]))) if np.any(chosen) else 0.0
 
 

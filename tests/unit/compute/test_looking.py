@@ -8,7 +8,8 @@ SCALAR = [4, -2, ROWS, np.zeros(0, np.int64), slice(None, 3), slice(1, 4), slice
           (Ellipsis, slice(None, 2)), np.array([True, False, False, True, True])]  # fmt: skip
 VECTOR = [1, -1, slice(None, 1), (0, 2), (-1, ROWS), (slice(None), ROWS), (slice(None, 1), ROWS),
           (slice(None), slice(None, 3)), (1, slice(None, 3)), (Ellipsis, slice(None, 3)),
-          (slice(None), 2), (slice(None, 1), slice(None, 2)), (1, slice(1, 3))]  # fmt: skip
+          (slice(None), 2), (slice(None, -1), 2), (slice(None, 1), slice(None, 2)),
+          (1, slice(1, 3))]  # fmt: skip
 
 
 @pytest.fixture

@@ -46,7 +46,7 @@ def flow_view(case: Case, solver: MeltPool, fetch: Callable[[Array], np.ndarray]
         # Velocity of the surface: that of the particle and half the jump to its ghost.
         flows = backend.host_view(solver.kinds.fluid)[surface]
         level = velocity.shape[0] - 1
-        jump = np.atleast_2d(backend.host_view(free.ghost_velocity_jump))[:level, surface]
+        jump = np.atleast_2d(backend.host_view(free.ghost_velocity_jump)[..., surface])[:level]
         speed = velocity[:level, surface] + flows * (0.5 * jump)
         speed = speed[0] if level == 1 else speed
     T, sides = material.flow_temperature, case.geometry.faces
@@ -98,7 +98,7 @@ def _along_x(temperature: np.ndarray, position: np.ndarray) -> np.ndarray:
 
 def _size(gradient: np.ndarray, surface: np.ndarray) -> np.ndarray:
     """(s,) dT/dx of some particles in a plane, the size of their gradient in 3-D [K/m]."""
-    found = np.atleast_2d(gradient)[:, surface]
+    found = np.atleast_2d(gradient[..., surface])
     return found[0] if found.shape[0] < 3 else np.sqrt(np.sum(found * found, axis=0))
 
 
