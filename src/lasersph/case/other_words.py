@@ -20,6 +20,8 @@ OTHER_WORDS = MATERIAL_WORDS | {
     "energy_per_pulse": "laser.pulse_energy",
     "repetition_rate": "laser.pulse.repetition_rate",
     "rep_rate": "laser.pulse.repetition_rate",
+    "rate": "laser.pulse.repetition_rate",
+    "frequency": "laser.pulse.repetition_rate",
     "scan_velocity": "laser.spot.scan_speed",
     "number_of_beams": "laser.beam.beams",
     "pulse_duration": "laser.pulse.duration laser.pulse.fwhm",

@@ -96,7 +96,7 @@ def make(plan: SweepPlan, folder: Path, engine: Engine, again: str) -> Table:
             # Failures are said above the line of progress.
             status = progress.step(event, table)
             if event.kind in ("failed", "wrong", "retry"):
-                word = "tried again" if event.kind == "retry" else event.kind
+                word = {"retry": "tried again", "wrong": "refused"}.get(event.kind, event.kind)
                 display.say(f"{event.run} {word}: {event.message}")
             display(status)
 
@@ -120,7 +120,7 @@ def make(plan: SweepPlan, folder: Path, engine: Engine, again: str) -> Table:
 
 
 def describe(status: SweepStatus) -> str:
-    """Part of the work, runs complete and in hand, failures, and the time left if known."""
+    """Part of the work, runs complete and in hand, failed, refused, and the time left if known."""
     from lasersph.input import format_duration
 
     left = status.remaining_s
@@ -129,6 +129,7 @@ def describe(status: SweepStatus) -> str:
             f"{100 * min(status.work_done, 1.0):3.0f} %  {status.complete} of {status.total} runs",
             *([f"{status.running} running"] if status.running else []),
             *([f"{status.failed} failed"] if status.failed else []),
+            *([f"{status.refused} refused"] if status.refused else []),
             *([] if left is None else [f"{format_duration(left)} left"]),
         ]
     )

@@ -16,7 +16,7 @@ class SweepStatus:
     """How far many runs are.
 
     Attributes:
-        total, complete, failed: numbers of runs; failed ones and those whose case is refused.
+        total, complete, failed, refused: numbers of runs; refused are those of a wrong case.
         running: in hand. work_done: part of all runs, 0 to 1.
         remaining_s: expected wall time to the end [s], None before it can be told.
     """
@@ -24,6 +24,7 @@ class SweepStatus:
     total: int
     complete: int
     failed: int
+    refused: int
     running: int
     work_done: float
     remaining_s: float | None
@@ -35,6 +36,7 @@ class SweepProgress:
 
     complete: set[str] = field(default_factory=set)
     failed: set[str] = field(default_factory=set)
+    refused: set[str] = field(default_factory=set)
     _running: dict[str, tuple[float, float, float]] = field(default_factory=dict)
     """By run: share of it done before this call and now, and when it was begun [s]."""
     _seconds: list[float] = field(default_factory=list)
@@ -52,7 +54,7 @@ class SweepProgress:
             if row.status == "complete":
                 self.complete.add(row.run)
             elif row.status == "wrong":
-                self.failed.add(row.run)
+                self.refused.add(row.run)
         # share of this run and when it began; a run that ends gives the time of a whole one
         if event.kind == "progress":
             before, _, begun = self._running.get(run, (event.work_done, 0.0, now))
@@ -61,14 +63,14 @@ class SweepProgress:
             before, _, begun = self._running.pop(run, (1.0, 1.0, now))
             if event.kind == "complete" and before < 1.0:
                 self._seconds.append((now - begun) / (1.0 - before))
-        if event.kind == "complete":
-            self.complete.add(run)
-        elif event.kind in ("failed", "wrong"):
-            self.failed.add(run)
+        ended = {"complete": self.complete, "failed": self.failed, "wrong": self.refused}
+        if event.kind in ended:
+            ended[event.kind].add(run)
         return self._status(table, now)
 
     def _status(self, table: Table, now: float) -> SweepStatus:
-        total, ended = len(set(table.runs)), len(self.complete | self.failed)
+        total = len(set(table.runs))
+        ended = len(self.complete | self.failed | self.refused)
         done = sum(share for _, share, _ in self._running.values())
         # time of a whole run: of those that ended, and of those in hand by their share
         whole = [*self._seconds]
@@ -86,6 +88,7 @@ class SweepProgress:
             total=total,
             complete=len(self.complete),
             failed=len(self.failed),
+            refused=len(self.refused),
             running=len(self._running),
             work_done=(ended + done) / max(1, total),
             remaining_s=remaining,

@@ -53,6 +53,7 @@ def test_failures_give_exit_code_1_and_are_listed(plan, tmp_path, capsys, monkey
     said = capsys.readouterr()
     assert f"1 of 4 runs complete: {out / 'table.csv'}" in said.out
     assert "failed: no step converges" in said.err
+    assert "1 of 4 runs, 1 failed, 2 refused" in said.err
     assert "lasersph info" in said.out and "wrong" in said.out
     assert (out / "plan.toml").read_text() == PLAN
 

@@ -40,3 +40,5 @@ def test_remaining_time(tmp_path, monkeypatch):
     status = at(11.0, third, "failed")
     assert (status.running, status.complete, status.failed) == (0, 2, 1)
     assert status.work_done == pytest.approx(3 / 4) and status.remaining_s is None
+    status = at(12.0, table.runs[3], "wrong")
+    assert (status.failed, status.refused) == (1, 1) and status.work_done == 1.0
