@@ -207,7 +207,7 @@ def without_stairs(times: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, n
     """A curve through the steps of a quantity that changes by whole cells.
 
     Each value that stands for a while is drawn once, in the middle of that while, as in Figs. 4
-    and 9 of [Demuth2020]. The zeros before and after stay.
+    and 9 of [Demuth2020]. The zeros before and after stay, and the last value reaches to the end.
 
     Args:
         times, values: (n,).
@@ -222,11 +222,12 @@ def without_stairs(times: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, n
     tolerance = 1e-9 * float(np.max(np.abs(values)))
     starts = np.flatnonzero(np.concatenate([[True], np.abs(np.diff(values)) > tolerance]))
     ends = np.concatenate([starts[1:] - 1, [values.size - 1]])
-    # Each is drawn once, in its middle; zeros keep their first and last time.
+    # Each is drawn once, in its middle; zeros keep their first and last time, the last one its end.
     middle = 0.5 * (times[starts] + times[ends])
     height = values[starts]
     middle[height == 0.0] = times[starts][height == 0.0]
     keep_end = (height == 0.0) & (ends > starts)
+    keep_end[-1] = ends[-1] > starts[-1]
     all_times = np.concatenate([middle, times[ends[keep_end]]])
     all_values = np.concatenate([height, height[keep_end]])
     order = np.argsort(all_times, kind="stable")

@@ -181,6 +181,8 @@ def test_stairs_are_drawn_through_their_middles():
     x, y = without_stairs(times, values)
     assert list(x) == [0.0, 1.0, 3.0, 5.0, 6.0, 8.0]
     assert list(y) == [0.0, 0.0, 1.0, 2.0, 0.0, 0.0]
+    x, y = without_stairs(times[:6], np.array([0.0, 1.0, 1.0, 2.0, 2.0, 2.0]))
+    assert list(x) == [0.0, 1.5, 4.0, 5.0] and list(y) == [0.0, 1.0, 2.0, 2.0]
 
 
 def test_picture_shows_the_closest_cell():
