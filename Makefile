@@ -61,12 +61,13 @@ $(VENV)/bin/python:
 	       "pip. On Debian: apt install python3-venv python3-pip" >&2; exit 1; }
 
 # A stamp per set of extras, renewed when the metadata changes.
+# Without bytecode, of which a run needs a part: half the time.
 $(VENV)/.run: pyproject.toml | $(VENV)/bin/python
-	$(PIP) install --quiet --editable .
+	$(PIP) install --quiet --no-compile --editable .
 	@touch $@
 
 $(VENV)/.%: pyproject.toml | $(VENV)/bin/python
-	$(PIP) install --quiet --editable '.[$(subst check,check$(comma)test,$*)$(if $(filter test check,$*),$(GPU))]'
+	$(PIP) install --quiet --no-compile --editable '.[$(subst check,check$(comma)test,$*)$(if $(filter test check,$*),$(GPU))]'
 	@touch $@
 
 # Tests run in as many processes as there are cores; in four at most, since each imports everything.

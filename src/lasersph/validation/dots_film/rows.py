@@ -42,7 +42,7 @@ def driven(study: Study, name: str, film: dict) -> Panel:
     if times[-1] >= PULSE:
         speeds = speed_at_quarter(one, periods), speed_of(liquid, periods)
         study.add("speed", *speeds, film=name, spacing=spacing)
-    return panel(f"{name}, 100 K for 20 ns", times, found, fine, curve)
+    return panel(name, times, found, fine, curve)
 
 
 def free_wave(study: Study) -> Panel:
