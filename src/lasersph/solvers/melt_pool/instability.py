@@ -19,7 +19,7 @@ def refuse_unstable(flow: Flow, domain: PoolDomain, position: Array, time: float
     """Stop a flow that has become unstable.
 
     Args:
-        position: (2, n) [m]. time: to compute [s].
+        position: (d, n) [m]. time: to compute [s].
 
     Raises:
         NotConverged: with the speed, the place and what to change.
@@ -31,8 +31,12 @@ def refuse_unstable(flow: Flow, domain: PoolDomain, position: Array, time: float
     # the fastest particle, for the message
     host = flow.backend.to_host
     fastest = int(np.argmax(np.sum(host(flow.velocity) ** 2, axis=0)))
-    x, z = (format_quantity(float(place), "m", 3) for place in host(position)[:, fastest])
+    place = host(position)[:, fastest]
+    at = ", ".join(
+        f"{axis} = {format_quantity(float(one), 'm', 3)}"
+        for axis, one in zip("xz" if place.size == 2 else "xyz", place, strict=True)
+    )
     raise NotConverged(
-        f"the flow has become unstable: {speed:.3g} m/s at x = {x}, z = {z}; take another "
-        "particles.spacing, a weaker drive or an earlier end"
+        f"the flow has become unstable: {speed:.3g} m/s at {at}; take another particles.spacing, "
+        "a weaker drive or an earlier end"
     )

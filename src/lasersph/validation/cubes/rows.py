@@ -92,6 +92,7 @@ def _vortices(study: Study, plan: SimpleNamespace) -> list[Panel]:
                 *("solver.flow.initial.kind=taylor-green", "solver.flow.initial.speed=1 m/s"),
                 f"solver.flow.initial.period={side!r} m",
                 f"material.kinematic_viscosity={1.0 / reynolds!r} m^2/s",
+                f"solver.shifting={plan.shifting}",
                 f"time.end={plan.times[-1]!r} s",
                 f"output.snapshots.interval={plan.times[-1]!r} s",
             )
