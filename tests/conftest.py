@@ -1,5 +1,6 @@
 """Fixtures for all tests."""
 
+import gc
 import os
 import shutil
 import tempfile
@@ -21,6 +22,11 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # as on the command line
 os.environ.setdefault(
     "LASERSPH_CACHE", os.path.join(tempfile.gettempdir(), f"lasersph-test-{os.getuid()}")
 )
+
+OBJECTS_BETWEEN_SEARCHES = 100_000
+"""For garbage, as on the command line: thousands of tests and all libraries are lasting objects,
+which Python's 700 would search all the time."""
+gc.set_threshold(OBJECTS_BETWEEN_SEARCHES)
 
 settings.register_profile(
     "any-machine", deadline=None, suppress_health_check=[HealthCheck.too_slow]
@@ -70,6 +76,7 @@ def pytest_collection_modifyitems(config, items):
 
 def pytest_collection_finish(session):
     """Start what runs beside the tests, where they run in this process."""
+    gc.freeze()  # what was collected stays to the end
     config = session.config
     if not config.option.collectonly and not hasattr(config, "workerinput"):
         start_beside(config, [item.nodeid for item in session.items])

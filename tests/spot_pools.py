@@ -22,8 +22,9 @@ LIGHT = {
 
 
 def spot_case(*, spacing=1e-7, width=2e-6, depth=1e-6, material=None, laser=LIGHT, **rooms):
-    """Case of a block of steel, `width` the radius, with equal particles; other rooms are added to
-    what is here."""
+    """Case of a block of steel, `width` the radius, with equal particles, and few snapshots; other
+    rooms are added to what is here."""
+    time = {"end": 4e-8} | rooms.pop("time", {})
     solver = {"kind": "melt-pool", "geometry": "axisymmetric"} | rooms.pop("solver", {})
     return Case.model_validate(
         {
@@ -31,7 +32,8 @@ def spot_case(*, spacing=1e-7, width=2e-6, depth=1e-6, material=None, laser=LIGH
             "domain": {"width": width, "depth": depth},
             "particles": {"spacing": spacing, "arrangement": "uniform"},
             "solver": solver,
-            "time": {"end": 4e-8},
+            "time": time,
+            "output": {"snapshots": {"interval": 0.5 * time["end"]}},
             **({} if laser is None else {"laser": laser}),
             **rooms,
         }

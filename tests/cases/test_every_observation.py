@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 import pytest
 from key_trials import BASES, LIT
 
@@ -32,27 +34,38 @@ TRIALS = {
 """A small case, another value of the key, and settings beside it."""
 
 
-@pytest.mark.parametrize("key", TRIALS)
-def test_a_key_changes_what_is_stored(key, tmp_path, monkeypatch):
-    """Names and numbers of the history, times of snapshots, number of checkpoints."""
-    file = tmp_path / "case.toml"
+SHORT = ("time.end=0.06 ns", "output.snapshots.interval=0.03 ns")
+"""Few steps and snapshots of each small case."""
+
+
+@pytest.fixture(scope="module")
+def stored(tmp_path_factory):
+    """Function that runs a small case once, and tells what it has stored: names and numbers of the
+    history, times of snapshots, number of checkpoints."""
+    file = tmp_path_factory.mktemp("case") / "case.toml"
     file.write_text(LIT, encoding="utf-8")
-    label, value, beside = TRIALS[key]
     saved = []
     save = checkpoint.save
 
     def count(*arguments, **settings):
-        saved[-1] += 1
+        saved.append(arguments)
         return save(*arguments, **settings)
 
-    monkeypatch.setattr(checkpoint, "save", count)
-
-    def stored(*changes: str):
-        saved.append(0)
-        case = load_case(file, (*BASES[label], *beside, "time.end=0.06 ns", *changes))
-        folder = tmp_path / str(len(saved))
-        run(case, folder, threads=1)
+    @cache
+    def run_once(label, settings):
+        saved.clear()
+        folder = tmp_path_factory.mktemp("run") / "run"
+        run(load_case(file, (*BASES[label], *SHORT, *settings)), folder, threads=1)
         rows = (folder / "history.csv").read_text(encoding="utf-8")
-        return rows, open_run(folder).snapshots.times.tolist(), saved[-1]
+        return rows, open_run(folder).snapshots.times.tolist(), len(saved)
 
-    assert stored() != stored(f"{key}={value}")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(checkpoint, "save", count)
+        yield run_once
+
+
+@pytest.mark.parametrize("key", TRIALS)
+def test_a_key_changes_what_is_stored(key, stored):
+    """With another value, beside the same settings."""
+    label, value, beside = TRIALS[key]
+    assert stored(label, beside) != stored(label, (*beside, f"{key}={value}"))

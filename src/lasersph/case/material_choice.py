@@ -16,19 +16,26 @@ constant diffusivity may stand instead of the conductivity k = D rho c_p.
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, get_args
 
 from pydantic import BeforeValidator, GetJsonSchemaHandler, ValidationInfo
 from pydantic_core import CoreSchema
 
 from lasersph.input import QuantityError, parse_quantity, read_toml, refusal
-from lasersph.materials import Material, load_material, material_file
+from lasersph.materials import Law, Material, Optics, load_material, material_file
 from lasersph.materials.material import VISCOSITIES
+from lasersph.materials.sections import Electrons
 
 SET_HERE = "set in the case"
 UNNAMED = "of the case"
 SECTIONS = ("melting", "vaporization", "optics", "electrons")
-LAWS = ("reflectivity", "heat_capacity", "coupling", "conductivity")
+LAWS = tuple(
+    key
+    for section in (Optics, Electrons)
+    for key, field in section.model_fields.items()
+    for kind in get_args(field.annotation) or (field.annotation,)
+    if isinstance(kind, type) and issubclass(kind, Law)
+)
 """Keys of sections that are laws, with a source of their own."""
 UNSOURCED = ("source", "note", "uncertainty")
 SOURCED_BELOW = (*LAWS, "by_wavelength")

@@ -102,7 +102,7 @@ def _values(material: Material, name: str, law: Law[Any]) -> str:
     """Value, or the values at both ends of the range in which the material needs the law."""
     from lasersph.materials.checking import LIQUID_ONLY, UNITS
 
-    unit = UNITS[name]
+    unit = UNITS.get(name, "")
     # A property of the liquid begins at the liquidus, any other at the reference temperature.
     bottom = material.liquidus if name in LIQUID_ONLY else None
     top = material.vaporization.temperature if material.vaporization else 3000.0

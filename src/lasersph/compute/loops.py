@@ -17,7 +17,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from lasersph.compute import source
+from lasersph.compute import loop_texts, source
 from lasersph.compute.arguments import argument_for, array_kind, fingerprint
 from lasersph.compute.array_types import PairList
 from lasersph.compute.generate import Loop, LoopText
@@ -212,8 +212,8 @@ class Loops:
             call, signature, arrays, tables, numbers, outs, active, row_start, neighbor, geometry
         )
 
-    def text(self, given: Given) -> LoopText:
-        """Source of a call's loop, before it is written."""
+    def text(self, given: Given) -> tuple[LoopText, str]:
+        """Source of a call's loop, and its lines; see `loop_texts.written`."""
         call, signature = given.call, given.signature
         dimension = given.geometry[3] if given.geometry else 0
         arrays = dict(zip(signature.symbols, given.arrays, strict=True))
@@ -246,7 +246,7 @@ class Loops:
             signature.combine,
             tuple((name, array.dtype.name) for name, array in named.items()),
         )
-        return self.launcher.text(loop)
+        return loop_texts.written(self.launcher.text, loop)
 
     def _compiled(self, given: Given) -> Compiled:
         """Generate, cache and load the loop of new kinds."""
@@ -256,8 +256,8 @@ class Loops:
         if any(how not in ("sum", "max", "min") for how in signature.combine):
             raise ValueError('combine takes "sum", "max" or "min"')
         self._refuse_precision(given)
-        text = self.text(given)
-        entry = self.launcher.compile(text.written())
+        text, lines = self.text(given)
+        entry = self.launcher.compile(lines)
         places: dict[str, list[tuple[int, int, int]]] = {name: [] for name in given.numbers}
         for which, names in enumerate((text.reals, text.whole)):
             for k, (name, component) in enumerate(names.values()):

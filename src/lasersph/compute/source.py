@@ -30,6 +30,7 @@ class SourceUnit:
         self._open: set[Any] = set()
         self._used: set[str] = set()
         self._watched: dict[tuple[int, str], tuple[Any, str, Any]] = {}
+        self._codes: list[tuple[types.FunctionType, types.CodeType]] = []
 
     def add(self, function: types.FunctionType, kinds: tuple) -> tuple[str, Any]:
         """Name in the generated file and kind of the result, for these kinds of arguments.
@@ -46,6 +47,7 @@ class SourceUnit:
         # a name of its own for each function and kinds of arguments
         self._open.add(key)
         tree, file, first_line = parsed(function)
+        self._codes.append((function, function.__code__))
         name = f"f__{function.__name__}"
         number = 1
         while name in self._used:
@@ -80,6 +82,11 @@ class SourceUnit:
     def watched(self) -> tuple[tuple[Any, str, Any], ...]:
         """Global names read so far: (namespace, name, object)."""
         return tuple(self._watched.values())
+
+    def is_current(self) -> bool:
+        """Whether all that was read is as it was: what names mean, and the code of functions."""
+        has_same_code = all(function.__code__ is code for function, code in self._codes)
+        return has_same_code and is_current(self.watched())
 
 
 def is_current(watched: tuple[tuple[Any, str, Any], ...]) -> bool:

@@ -40,9 +40,8 @@ UNITS = {
     "surface_tension": "N/m",
     "surface_tension_slope": "N/(m K)",
     "expansion": "1/K",
-    "reflectivity": "",
 }
-"""Of every property, as shown to a user."""
+"""Of every property, as shown to a user; shares of light have none."""
 FROM_MEMORY = "[M]"
 """Mark of a source whose text was not at hand when its numbers were written down."""
 ROUNDING = 0.02
@@ -127,7 +126,7 @@ def _ranges(material: Material) -> list[Finding]:
             where = name if phase == "all" else f"{name}.{phase}"
             if needed is None:
                 continue
-            gaps = _gaps(law, *needed, UNITS[name])
+            gaps = _gaps(law, *needed, UNITS.get(name, ""))
             if gaps:
                 found.append(Finding("note", where, "; ".join(gaps)))
             else:

@@ -25,7 +25,7 @@ from lasersph.input import (
 )
 from lasersph.materials.caloric_curve import CaloricCurve
 from lasersph.materials.enthalpy import build_curve
-from lasersph.materials.optics import NoOptics, Optics
+from lasersph.materials.optics import NoOptics, Optics, shares_of
 from lasersph.materials.property import Law, Property
 from lasersph.materials.sections import Electrons, Melting, Vaporization
 from lasersph.materials.surface_tension import SurfaceTensionLaw
@@ -110,12 +110,13 @@ class Material(Model):
 
     @model_validator(mode="after")
     def _check_values(self) -> Material:
-        """Refuse values that no solver survives: zero or negative, or reflectivity beyond 0..1."""
+        """Refuse values that no solver survives: zero or negative, or shares beyond 0..1."""
         # sulfur acts by the constants of adsorption
         gamma = self.surface_tension
         if self.sulfur > 0.0 and (gamma is None or gamma.adsorption is None):
             raise refusal(("sulfur", NO_ADSORPTION))
-        for name, property_ in (self.properties() | self._spectral_reflectivities()).items():
+        shares = self._shares()
+        for name, property_ in (self.properties() | shares).items():
             for phase, law in property_.laws().items():
                 # each law over its own range, kinks included
                 values = law.at(sample_temperatures(law))
@@ -124,7 +125,7 @@ class Material(Model):
                     raise ValueError(f"{where} is not finite everywhere in its range")
                 if name in POSITIVE and np.any(values <= 0.0):
                     raise ValueError(f"{where} must be positive everywhere in its range")
-                if name.endswith("reflectivity") and (values.min() < 0.0 or values.max() > 1.0):
+                if name in shares and (values.min() < 0.0 or values.max() > 1.0):
                     raise ValueError(f"{where} must lie between 0 and 1 everywhere in its range")
         self._compare_viscosities()
         # phases in their order
@@ -150,27 +151,24 @@ class Material(Model):
             raise refusal(("kinematic_viscosity", text))
 
     def properties(self) -> dict[str, Property[Any]]:
-        """All given properties by name, reflectivity and the effect of sulfur included."""
+        """All given properties by name, shares of light and the effect of sulfur included."""
         found = {
             name: getattr(self, name)
             for name in type(self).model_fields
             if isinstance(getattr(self, name), Property)
         }
-        # properties that are not fields: gamma with its sulfur, R among the optics
+        # properties that are not fields: gamma with its sulfur, shares of light among the optics
         if self.surface_tension is not None:
             found["surface_tension"] = self.surface_tension.with_sulfur(self.sulfur)
-        if self.optics is not None and self.optics.reflectivity is not None:
-            found["reflectivity"] = self.optics.reflectivity
-        return found
+        return found | (shares_of(self.optics) if self.optics else {})
 
-    def _spectral_reflectivities(self) -> dict[str, Property[Any]]:
-        """Reflectivities given for single wavelengths, by their key."""
-        given = self.optics.by_wavelength if self.optics else {}
-        return {
-            f"optics.by_wavelength.{name}.reflectivity": one.reflectivity
-            for name, one in given.items()
-            if one.reflectivity is not None
-        }
+    def _shares(self) -> dict[str, Property[Any]]:
+        """Shares of light: those of the optics by name, those of single wavelengths by key."""
+        found = shares_of(self.optics) if self.optics else {}
+        for wavelength, one in (self.optics.by_wavelength if self.optics else {}).items():
+            key = f"optics.by_wavelength.{wavelength}"
+            found |= {f"{key}.{name}": share for name, share in shares_of(one).items()}
+        return found
 
     def in_light(self, wavelength: float | None) -> Material:
         """The same metal with its optics at a wavelength [m]; None where that is not known.
@@ -188,10 +186,10 @@ class Material(Model):
     def uncertainties(self) -> dict[str, tuple[float, str]]:
         """By key ("density.liquid", "melting.latent_heat"): relative standard uncertainty and who
         states it, of all that have one."""
-        found = {}
+        found, shares = {}, self._shares()
         for name, property_ in self.properties().items():
             # laws, then single numbers of the sections
-            home = f"optics.{name}" if name == "reflectivity" else name
+            home = f"optics.{name}" if name in shares else name
             for phase, law in property_.laws().items():
                 if law.uncertainty is not None:
                     key = home if phase == "all" else f"{home}.{phase}"

@@ -37,6 +37,11 @@ class NoOptics(ValueError):
     """A material has no optics for the light of a case."""
 
 
+def shares_of(optics: Optics | SpectralOptics) -> dict[str, Property[Any]]:
+    """Its shares between 0 and 1 that may depend on temperature, by key."""
+    return {name: given for name, given in optics if isinstance(given, Property)}
+
+
 class SpectralOptics(Model):
     """Optics at one wavelength and normal incidence: n and k, or R and alpha."""
 

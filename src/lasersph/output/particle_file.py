@@ -91,16 +91,17 @@ class ParticleFile:
                 start_file(file, dimension, fields, units or {}, position.dtype, count)
                 if shape is not None:
                     file.attrs["shape"] = shape
-            root = file["VTKHDF"]
-            if set(root["PointData"]) != set(fields):
+            # groups by name once: each look into the file takes as long as a small write
+            root, ranges = file["VTKHDF"], file.get("ranges")
+            data, steps = root["PointData"], root["Steps"]
+            if set(data) != set(fields):
                 raise ValueError("the fields of a step differ from those of the first step")
-            steps = root["Steps"]
             number = int(steps.attrs["NSteps"])
 
             # Positions and cells, each written only where they changed.
             points = to_three_axes(position)
             point_offset = store_block(root["Points"], points)
-            store_range(file, "position", points)
+            store_range(ranges, "position", points)
             cells: CellKind = self.cells if shape is None else "Polygons"
             part, first_cell, first_point = store_cells(root, count, cells, shape)
             place = CELL_KINDS.index(cells)
@@ -116,11 +117,12 @@ class ParticleFile:
             ):
                 extend(steps[name], [[first if k == place else 0 for k in range(4)]])
             # Fields as blocks of their own, with their ranges for viewers.
+            offsets = steps["PointDataOffsets"]
             for name, array in fields.items():
                 block = to_three_axes(array) if array.ndim == 2 else array
-                offset = store_block(root["PointData"][name], block)
-                extend(steps["PointDataOffsets"][name], [offset])
-                store_range(file, name, block)
+                offset = store_block(data[name], block)
+                extend(offsets[name], [offset])
+                store_range(ranges, name, block)
             # The number of steps goes last: until then no reader looks at the new rows.
             steps.attrs["NSteps"] = number + 1
 
@@ -262,9 +264,16 @@ def to_three_axes(vector: np.ndarray) -> np.ndarray:
 
 def extend(dataset: Any, rows: Any) -> int:
     """Append rows to a dataset and return where they begin."""
-    start = dataset.shape[0]
-    dataset.resize(start + len(rows), axis=0)
-    dataset[start:] = rows
+    from h5py import h5s
+
+    stored = dataset.id
+    values = np.ascontiguousarray(rows, dtype=stored.dtype)
+    start, *tail = stored.shape
+    stored.set_extent((start + len(values), *tail))
+    # HDF5's own calls: indices as of NumPy take several times as long for a row
+    place = stored.get_space()
+    place.select_hyperslab((start, *(0 for _ in tail)), values.shape)
+    stored.write(h5s.create_simple(values.shape), place, values)
     return start
 
 
@@ -281,10 +290,10 @@ def store_block(dataset: Any, block: np.ndarray) -> int:
     return offset
 
 
-def store_range(file: Any, name: str, block: np.ndarray) -> None:
-    """Keep the range of a step; a file begun before ranges were kept stays without."""
-    if "ranges" in file:
-        extend(file["ranges"][name], [value_range(block)])
+def store_range(ranges: Any, name: str, block: np.ndarray) -> None:
+    """Keep the range of a step; a file begun before ranges were kept stays without (None)."""
+    if ranges is not None:
+        extend(ranges[name], [value_range(block)])
 
 
 def value_range(block: np.ndarray) -> np.ndarray:

@@ -17,10 +17,10 @@ import numpy as np
 from lasersph.case import Case
 from lasersph.studies.texture.cells import Cell
 from lasersph.studies.texture.dots import AnyTable, table_of
+from lasersph.studies.texture.fluence_table import FEWEST_CELLS, ROUNDING
 from lasersph.studies.texture.make import KEY, LIGHT, cell_fluences, cell_settings, spot_of
 from lasersph.studies.texture.relief import Relief
 from lasersph.studies.texture.spot import half_sizes
-from lasersph.studies.texture.table import FEWEST_CELLS, ROUNDING
 from lasersph.sweeps import CaseTemplate, Point
 from lasersph.sweeps.points import Value
 

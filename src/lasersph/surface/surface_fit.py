@@ -40,9 +40,9 @@ def fall_off(r):
     return max(1.0 - r * r / (WINDOW * WINDOW), 0.0)
 
 
-def depth_share(layers, reach):
-    """Weight by the depth, in spacings, of those that count."""
-    return max(1.0 - layers / reach, LEAST_SHARE)
+def share_of(layers, reach, near):
+    """Weight in a fit by the depth, in spacings, of those that count, and along the surface."""
+    return max(1.0 - layers / reach, LEAST_SHARE) * near * near
 
 
 def surface_velocity_of_line(
@@ -76,7 +76,7 @@ def surface_velocity_of_line(
                     # weights fall along the surface and with the depth
                     r, d = place[0] - middle, layers * layers
                     near = fall_off(r)
-                    share = depth_share(layers, VELOCITY_DEPTH) * near * near
+                    share = share_of(layers, VELOCITY_DEPTH, near)
                     # velocity carried on to the surface by half of the ghost's jump
                     v_j = signs * (v[j] + 0.5 * jump[j])
                     s_0 += share
@@ -90,7 +90,7 @@ def surface_velocity_of_line(
                     v_d += share * d * v_j
                     # moments for the temperature, of the uppermost two layers alone
                     if layers < TEMPERATURE_DEPTH:
-                        share = depth_share(layers, TEMPERATURE_DEPTH) * near * near
+                        share = share_of(layers, TEMPERATURE_DEPTH, near)
                         n_0 += share
                         n_1 += share * r
                         n_2 += share * r * r
@@ -146,7 +146,7 @@ def surface_velocity_of_grid(
                     # weights fall along the surface and with the depth
                     r_x, r_y, d = place[0] - row - 0.5, place[1] - line - 0.5, layers * layers
                     near = fall_off(r_x) * fall_off(r_y)
-                    share = depth_share(layers, VELOCITY_DEPTH) * near * near
+                    share = share_of(layers, VELOCITY_DEPTH, near)
                     b = vector(1.0, r_x, r_y)
                     # velocity carried on to the surface by half of the ghost's jump
                     v_j = signs * (v[j] + 0.5 * jump[j])
@@ -157,7 +157,7 @@ def surface_velocity_of_grid(
                     v_d += share * d * v_j
                     # moments for the temperature, of the uppermost two layers alone
                     if layers < TEMPERATURE_DEPTH:
-                        share = depth_share(layers, TEMPERATURE_DEPTH) * near * near
+                        share = share_of(layers, TEMPERATURE_DEPTH, near)
                         N += share * outer(b, b)
                         T_b += share * T[j] * b
 

@@ -59,8 +59,8 @@ def pair_sum(precision):
         (None, "max"), {"rate": 2.0},
     )  # fmt: skip
     loops = Loops(precision, CudaLauncher(), lambda array: array)
-    text = loops.text(loops.given(call))
-    kernel = cache.load(text.written()).loop
+    text, lines = loops.text(loops.given(call))
+    kernel = cache.load(lines).loop
     given = {
         "row_start": offset,
         "neighbor": index,

@@ -45,7 +45,7 @@ def dots(cells=12, columns=48):
         "temperature": AMBIENT + 0.3 * grid[0] + np.zeros((1, columns, columns)),
         "speed": 10.0 * above,
     }
-    return DotTable(fluence, x, x, PERIOD, values, AMBIENT)
+    return DotTable(fluence, x, PERIOD, values, AMBIENT, x)
 
 
 @pytest.mark.parametrize("extent", list(SHARES))

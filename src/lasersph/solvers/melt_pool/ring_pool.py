@@ -16,11 +16,15 @@ middle of the step, as the line of the surface is then.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from typing import Literal
 
 import numpy as np
 
+from lasersph.solvers.conduction.solver import Conduction
+from lasersph.solvers.melt_pool.domain import PoolDomain
+from lasersph.solvers.melt_pool.flow import Flow
 from lasersph.solvers.melt_pool.ring_block import RingBlock, RingTangentBlock
+from lasersph.solvers.melt_pool.settings import MeltPoolSettings
 from lasersph.solvers.melt_pool.solver import MeltPool
 from lasersph.solvers.melt_pool.transport import Transport
 from lasersph.surface.columns import OwnColumns, product
@@ -31,8 +35,15 @@ class RingPool(MeltPool):
     """Solver of a run whose melt flows between particles that keep their radii; arguments of
     `MeltPool`."""
 
-    def __init__(self, *args: Any, **options: Any) -> None:
-        super().__init__(*args, **options)
+    def __init__(
+        self,
+        heat: Conduction,
+        flow: Flow,
+        domain: PoolDomain,
+        settings: MeltPoolSettings,
+        pause: Literal["compute", "spread", "remove"] = "compute",
+    ) -> None:
+        super().__init__(heat, flow, domain, settings, pause)
         backend, count = self.backend, self.body.count
         self.transport = Transport(self.particles, self.flow.volume)
         lattice = self.domain.lattice

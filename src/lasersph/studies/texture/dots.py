@@ -19,7 +19,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from lasersph.studies.texture.cells import UNITS, Cell
-from lasersph.studies.texture.table import CellTable, refuse_brighter, refuse_odd_fluences
+from lasersph.studies.texture.fluence_table import FluenceTable
+from lasersph.studies.texture.table import CellTable
 
 Array = NDArray[np.float64]
 LEVELS = 256
@@ -28,26 +29,15 @@ cells, where a cubic bends by 1e-2 of a cell's change."""
 
 
 @dataclass(frozen=True, eq=False)
-class DotTable:
+class DotTable(FluenceTable):
     """Cells of one pattern that repeats along x and y.
 
     Attributes:
-        fluence: (cells,) local fluence, mean over the period, rising [J/m^2].
-        x, y: (nx,), (ny,) places in the period, rising, from 0 [m]. period: along x [m].
+        x, y: (nx,), (ny,) places in the period, rising, from 0 [m].
         values: (cells, nx, ny) of each name of `cells.UNITS`.
-        initial_temperature: of a surface without light [K].
     """
 
-    fluence: Array
-    x: Array
     y: Array
-    period: float
-    values: dict[str, Array]
-    initial_temperature: float
-
-    def __post_init__(self) -> None:
-        """Raises ValueError for fewer than three cells, or fluences that do not rise."""
-        refuse_odd_fluences(self.fluence)
 
     @classmethod
     def of(
@@ -65,36 +55,12 @@ class DotTable:
         if any(cell.values[name].shape != shape for _, cell in ordered for name in UNITS):
             raise ValueError("cells of dots must have the same columns: take one spacing for all")
         values = {name: np.array([cell.values[name] for _, cell in ordered]) for name in UNITS}
-        return cls(fluence, first.x, first.y, period, values, initial_temperature)
+        return cls(fluence, first.x, period, values, initial_temperature, first.y)
 
     @property
     def period_y(self) -> float:
         """Along y [m]."""
         return float(self.y[1] - self.y[0]) * self.y.size
-
-    def without(self, number: int) -> DotTable:
-        """The table without one cell."""
-        values = {name: np.delete(one, number, axis=0) for name, one in self.values.items()}
-        fluence = np.delete(self.fluence, number)
-        return DotTable(fluence, self.x, self.y, self.period, values, self.initial_temperature)
-
-    def periods(self, name: str, fluence: ArrayLike) -> Array:
-        """Values (n, nx, ny) over the period at fluences (n,) [J/m^2].
-
-        Raises:
-            ValueError: a fluence above that of the highest cell.
-        """
-        from scipy.interpolate import PchipInterpolator
-
-        wanted = np.asarray(fluence, float)
-        refuse_brighter(wanted, self.fluence)
-        # monotone cubic over fluence at each place; linear to the dark below the lowest cell
-        low, highest = float(self.fluence[0]), float(self.fluence[-1])
-        cubic = PchipInterpolator(self.fluence, self.values[name], axis=0)
-        found = cubic(np.clip(wanted, low, highest))
-        dark = self.initial_temperature if name == "temperature" else 0.0
-        share = np.minimum(wanted / low, 1.0)[:, None, None]
-        return dark + share * (found - dark)
 
     @cached_property
     def _levels(self) -> dict[str, Array]:
@@ -102,7 +68,7 @@ class DotTable:
         first."""
         levels = np.linspace(0.0, self.fluence[-1], LEVELS)
         return {
-            name: np.pad(self.periods(name, levels), ((0, 0), (0, 1), (0, 1)), mode="wrap")
+            name: np.pad(self.profiles(name, levels), ((0, 0), (0, 1), (0, 1)), mode="wrap")
             for name in self.values
         }
 
@@ -115,7 +81,7 @@ class DotTable:
         from scipy.ndimage import map_coordinates
 
         wanted, *places = np.broadcast_arrays(*(np.asarray(one, float) for one in (fluence, x, y)))
-        refuse_brighter(wanted, self.fluence)
+        self.refuse_brighter(wanted)
         # trilinear in the tabulated levels, periodic along x and y
         level = np.minimum(wanted / self.fluence[-1], 1.0) * (LEVELS - 1)
         axes = [
@@ -138,15 +104,6 @@ class DotTable:
     def repeating(self, name: str, x: Array, y: Array) -> Array:
         """Values of the darkest cell at places [m], any shape; it repeats along x and y."""
         return self.at(name, self.fluence[0], x, y)
-
-    def leave_one_out(self, name: str) -> Array:
-        """Largest error over the period at each cell but the two at the ends (cells - 2,), where it
-        is predicted from the others."""
-        errors = [
-            np.abs(self.without(k).periods(name, self.fluence[k : k + 1])[0] - self.values[name][k])
-            for k in range(1, self.fluence.size - 1)
-        ]
-        return np.array([one.max() for one in errors])
 
 
 AnyTable = CellTable | DotTable

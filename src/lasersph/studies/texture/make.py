@@ -29,8 +29,8 @@ from lasersph.simulation.layers import expected_melt
 from lasersph.studies.texture.cells import PERIOD_FITS, UNITS
 from lasersph.studies.texture.dot_cells import read_any_cell
 from lasersph.studies.texture.dots import AnyTable, DotTable, table_of
+from lasersph.studies.texture.fluence_table import FEWEST_CELLS
 from lasersph.studies.texture.spot import NoTexture, refuse_common_melt, texture_maps
-from lasersph.studies.texture.table import FEWEST_CELLS
 from lasersph.sweeps import CaseTemplate, SweepPlan, Table, build_plan
 from lasersph.sweeps.folder import RUNS, SweepFolder
 from lasersph.sweeps.points import Value

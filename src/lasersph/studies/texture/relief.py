@@ -132,7 +132,7 @@ def read_relief(folder: Path) -> Relief | RoundRelief:
         fluence, x = np.array(cells["fluence_J_m2"]), np.array(cells["x_m"])
         values, period = {"height": np.array(cells["height_m"])}, content["period_m"]
         table = (
-            DotTable(fluence, x, np.array(cells["y_m"]), period, values, 0.0)
+            DotTable(fluence, x, period, values, 0.0, np.array(cells["y_m"]))
             if "y_m" in cells
             else CellTable(fluence, x, period, values, 0.0)
         )
@@ -160,6 +160,6 @@ def repeating_relief(cell: Cell, period: float, name: str = "") -> Relief:
     table = (
         CellTable(fluence, cell.x, period, values, 0.0)
         if cell.y is None
-        else DotTable(fluence, cell.x, cell.y, period, values, 0.0)
+        else DotTable(fluence, cell.x, period, values, 0.0, cell.y)
     )
     return Relief(name, table, np.zeros(1), np.zeros(1), np.ones((1, 1)))

@@ -19,37 +19,17 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from lasersph.studies.texture.cells import UNITS, Cell
+from lasersph.studies.texture.fluence_table import FluenceTable
 from lasersph.studies.texture.lines import LEVELS, LineHeights
 
 Array = NDArray[np.float64]
 BETWEEN_EDGES = ("height", "melt_depth")
 """Names of values that end steeply at the edges of a line's melt."""
-FEWEST_CELLS = 3
-"""Of which one can be left out and predicted from two others."""
-ROUNDING = 1e-9
-"""By which a fluence may exceed that of the highest cell."""
 
 
 @dataclass(frozen=True, eq=False)
-class CellTable:
-    """Cells of one pattern.
-
-    Attributes:
-        fluence: (cells,) local fluence, mean over the period, rising [J/m^2].
-        x: (columns,) places in the period, rising, from 0 [m]. period: [m].
-        values: (cells, columns) of each name of `cells.UNITS`.
-        initial_temperature: of a surface without light [K].
-    """
-
-    fluence: Array
-    x: Array
-    period: float
-    values: dict[str, Array]
-    initial_temperature: float
-
-    def __post_init__(self) -> None:
-        """Raises ValueError for fewer than three cells, or fluences that do not rise."""
-        refuse_odd_fluences(self.fluence)
+class CellTable(FluenceTable):
+    """Cells of one pattern of lines; `values` are (cells, columns)."""
 
     @classmethod
     def of(
@@ -65,33 +45,17 @@ class CellTable:
         }
         return cls(fluence, x, period, values, initial_temperature)
 
-    def without(self, number: int) -> CellTable:
-        """The table without one cell."""
-        values = {name: np.delete(one, number, axis=0) for name, one in self.values.items()}
-        fluence = np.delete(self.fluence, number)
-        return CellTable(fluence, self.x, self.period, values, self.initial_temperature)
-
     def profiles(self, name: str, fluence: ArrayLike) -> Array:
         """Values (n, columns) over the period at fluences (n,) [J/m^2].
 
         Raises:
             ValueError: a fluence above that of the highest cell.
         """
-        from scipy.interpolate import PchipInterpolator
-
+        if name not in BETWEEN_EDGES:
+            return super().profiles(name, fluence)
         wanted = np.asarray(fluence, float)
-        highest = float(self.fluence[-1])
-        refuse_brighter(wanted, self.fluence)
-        if name in BETWEEN_EDGES:
-            return self.lines[name].at(wanted[:, None], self.x[None, :])
-        # monotone cubic over fluence at each place; linear to the dark below the lowest cell
-        low = float(self.fluence[0])
-        found = PchipInterpolator(self.fluence, self.values[name], axis=0)(
-            np.clip(wanted, low, highest)
-        )
-        dark = self.initial_temperature if name == "temperature" else 0.0
-        share = np.minimum(wanted / low, 1.0)[:, None]
-        return dark + share * (found - dark)
+        self.refuse_brighter(wanted)
+        return self.lines[name].at(wanted[:, None], self.x[None, :])
 
     @cached_property
     def lines(self) -> dict[str, LineHeights]:
@@ -140,34 +104,3 @@ class CellTable:
     def repeating(self, name: str, x: Array, y: Array) -> Array:
         """Values of the darkest cell at places [m], any shape; lines are the same at any y."""
         return np.interp(x, self.x, self.values[name][0], period=self.period) + 0.0 * y
-
-    def leave_one_out(self, name: str) -> Array:
-        """Largest error over the period at each cell but the two at the ends (cells - 2,), where it
-        is predicted from the others."""
-        # each inner cell predicted from the others
-        inner = range(1, self.fluence.size - 1)
-        errors = [
-            np.abs(
-                self.without(k).profiles(name, self.fluence[k : k + 1])[0] - self.values[name][k]
-            )
-            for k in inner
-        ]
-        return np.array([one.max() for one in errors])
-
-
-def refuse_odd_fluences(fluence: Array) -> None:
-    """Refuse fewer than three cells, or fluences (cells,) that do not rise. Raises ValueError."""
-    if fluence.size < FEWEST_CELLS or np.any(np.diff(fluence) <= 0.0) or fluence[0] <= 0.0:
-        raise ValueError("a table needs three cells or more whose fluences rise from above 0")
-
-
-def refuse_brighter(wanted: Array, fluence: Array) -> None:
-    """Refuse fluences of any shape above that of the highest of some cells (cells,) [J/m^2].
-
-    Raises ValueError.
-    """
-    highest = float(fluence[-1])
-    if np.any(wanted > highest * (1.0 + ROUNDING)):
-        raise ValueError(
-            f"a fluence of {wanted.max():g} J/m^2 exceeds that of all cells, {highest:g} J/m^2"
-        )
