@@ -111,6 +111,4 @@ def test_too_steep(tmp_path):
     file, _ = relief_file(tmp_path, depth=9e-7)
     deep = ("particles.fine_depth=2 um", "domain.depth=4 um")
     with pytest.raises(CaseError, match=r"initial_surface.path: is a slope of 1\.\d+, more than 1"):
-        load_case(
-            "texture-dots-steel", (*DOTS, *deep, f"solver.flow.initial_surface.path={file}")
-        )
+        load_case("texture-dots-steel", (*DOTS, *deep, f"solver.flow.initial_surface.path={file}"))
