@@ -54,7 +54,8 @@ def with_rows_of_file(
 
     Args:
         columns: names in the file, all in SI. key: under which the rows are kept. wider: names
-            that are read instead where the file has all of them. largest: of a table over time, see `csv_rows.read_rows`; its times are then in s.
+            that are read instead where the file has all of them. largest: of a table over time,
+            see `csv_rows.read_rows`; its times are then in s.
     """
     path = data.get("path") if isinstance(data, dict) else None
     if not path or not isinstance(path, str) or data.get(key):
