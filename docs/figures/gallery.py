@@ -278,6 +278,16 @@ GALLERY = (
         _plots("fluence"),
     ),
     _entry(
+        "beams-hexagons",
+        "The light of three beams",
+        "Fluence of a pulse over the surface: dots on a hexagonal lattice.",
+        ("lasersph plot texture-hexagons-steel --beams",),
+        "texture-hexagons-steel-beams.png",
+        _case("texture-hexagons-steel"),
+        "lasersph.lasers",
+        _plots("fluence"),
+    ),
+    _entry(
         "cavity-flow",
         "A box whose lid moves",
         "Speed and streamlines of a liquid that its lid drags along, at a Reynolds number of 100.",

@@ -134,6 +134,20 @@ def test_a_pool_that_comes_too_close_is_refused(tmp_path):
     assert 2e3 < float(remedy.removesuffix(" nm")) < 3e3
 
 
+def test_a_dot_that_comes_too_close_is_refused(tmp_path):
+    """In 3-D, too, with the axis, and with the checkpoint that was there."""
+    settings = (
+        "particles.spacing=125 nm", "domain.depth=1.5 um", "particles.fine_depth=625 nm",
+        "particles.coarsest=150 nm", "particles.fine_width=1.25 um", "laser.fluence=0.3 J/cm^2",
+        "laser.pulse.center=25 ns", "time.step=1 ns", "time.end=40 ns",
+        "output.checkpoint_every=5",
+    )  # fmt: skip
+    case = load_case("texture-dots-steel", settings)
+    with pytest.raises(StepFailed, match=r"the melt at x = \S+ nm flows too close to columns"):
+        run(case, tmp_path / "run", threads=1)
+    assert any((tmp_path / "run" / "checkpoint").iterdir())
+
+
 def test_a_hundred_pools_wide_at_the_cost_of_two():
     """By default, where a spot melts: 150 um with as many particles and a quarter."""
     narrow = forecast(load_case("spot-steel"))

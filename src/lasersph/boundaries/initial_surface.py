@@ -3,12 +3,14 @@ has left."""
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field, ValidationInfo, model_validator
 
+from lasersph.boundaries.relief_grid import BEYOND, ReliefGrid
 from lasersph.input import Length, Model, format_quantity, refusal, with_rows_of_file
 
 if TYPE_CHECKING:
@@ -16,15 +18,14 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 COLUMNS = ("x_m", "height_m")
+OVER_BOTH = ("x_m", "y_m", "height_m")
+"""Columns of a relief over x and y."""
 STEEPEST = 1.0
 """Slope up to which the surface is computed. Guard: ghosts across tangents steeper than 45 degrees
 meet."""
 MIN_LAYERS = 3
 """Thickness of the liquid over the spacing, down to which it is. Guard: fewer rows of a box see no
 profile of the flow."""
-BEYOND = 1.0
-"""Widths of its columns by which a relief may end before the surface does. Geometry: columns have
-heights in their middle, and those of another run may be wider."""
 SHAPE_KEYS = ("amplitude", "period", "radius", "cap_height", "cap_radius")
 """Keys of a wave, a bump and a cap."""
 PARTNERS = {
@@ -73,9 +74,10 @@ class InitialSurface(Model):
     path: str = Field(
         default="",
         exclude_if=lambda given: not given,
-        description="instead: surface.csv of an earlier run, with columns x_m and height_m",
+        description="instead: surface.csv of an earlier run, with columns x_m, height_m, in "
+        "3-D y_m between them",
     )
-    rows: tuple[tuple[float, float], ...] = Field(
+    rows: tuple[Annotated[tuple[float, ...], Field(min_length=2, max_length=3)], ...] = Field(
         default=(),
         exclude_if=lambda given: not given,
         description="the same as numbers, instead of a file; the file's are kept here",
@@ -85,7 +87,7 @@ class InitialSurface(Model):
     @classmethod
     def _fill(cls, data: Any, info: ValidationInfo) -> Any:
         """Rows from the file, which counts from the folder of the case file."""
-        return with_rows_of_file(data, info, COLUMNS)
+        return with_rows_of_file(data, info, COLUMNS, wider=OVER_BOTH)
 
     @model_validator(mode="after")
     def _check(self) -> InitialSurface:
@@ -111,9 +113,29 @@ class InitialSurface(Model):
                     f"{format_quantity(self.cap_radius or 0.0, 'm')}",
                 )
             )
-        if self.rows and (len(self.rows) < 2 or not np.all(np.diff(self.x) > 0.0)):
+        if self._is_over_both:
+            if self.grid is None:
+                raise refusal(
+                    (
+                        "path",
+                        "needs a height for each x_m and each y_m of a grid, in rows whose y_m "
+                        "rises for each x_m in turn",
+                    )
+                )
+        elif self.rows and (len(self.rows) < 2 or not np.all(np.diff(self.x) > 0.0)):
             raise refusal(("path", "needs two rows or more whose x_m rises"))
         return self
+
+    @property
+    def _is_over_both(self) -> bool:
+        """Whether rows of a file have a place along y."""
+        return any(len(row) == 3 for row in self.rows)
+
+    @cached_property
+    def grid(self) -> ReliefGrid | None:
+        """Heights of a file over x and y; None where there are none."""
+        is_even = self._is_over_both and all(len(row) == 3 for row in self.rows)
+        return ReliefGrid.of(np.array(self.rows)) if is_even else None
 
     @property
     def x(self) -> Array:
@@ -123,7 +145,7 @@ class InitialSurface(Model):
     @property
     def heights(self) -> Array:
         """Heights of the rows [m]."""
-        return np.array([row[1] for row in self.rows])
+        return np.array([row[-1] for row in self.rows])
 
     @property
     def shape(self) -> SurfaceShape | None:
@@ -154,14 +176,16 @@ class InitialSurface(Model):
         return self.shape.mean(place - half, place + half, is_ring=is_ring)
 
     def shape_at(self, x: Array, y: Array) -> Array:
-        """Height [m] at x and y [m]; rows of a file hold for all y."""
+        """Height [m] at x and y [m]; rows of a file without y hold for all y."""
+        if self.grid is not None:
+            return self.grid.at(x, y)
         return self.at(x) if self.shape is None else self.shape.at(x, y)
 
     def mean_over_columns(self, places: tuple[Array, Array], widths: tuple[float, float]) -> Array:
         """Mean height [m] over the columns of a body around places along x and y [m]; rows of a
-        file hold for all y."""
+        file without y hold for all y."""
         if self.shape is None:
-            return self.at(places[0])
+            return self.shape_at(*places)
         return self.shape.mean_over_columns(places, widths)
 
     @property
@@ -175,13 +199,18 @@ class InitialSurface(Model):
         """Largest slope; of the rows of a file over a width [m]."""
         if self.shape is not None:
             return self.shape.steepest
+        if self.grid is not None:
+            return self.grid.steepest(width)
         rise = self.at(self.x + 0.5 * width) - self.at(self.x - 0.5 * width)
         return float(np.max(np.abs(rise), initial=0.0)) / width
 
-    def covers(self, low: float, high: float) -> bool:
-        """Whether it has heights from x = low to high [m]; all but a file have everywhere."""
-        if not self.rows:
-            # columns at the ends of the relief reach half of their width further
+    def covers(self, axis: int, low: float, high: float) -> bool:
+        """Whether it has heights from `low` to `high` [m] along an axis; all but a file have
+        everywhere, and one without y has along y."""
+        if self.grid is not None:
+            return self.grid.covers(axis, low, high)
+        if not self.rows or axis == 1:
             return True
+        # columns at the ends of the relief reach half of their width further
         margin = BEYOND * (self.x[-1] - self.x[0]) / (len(self.rows) - 1)
         return bool(self.x[0] - margin <= low and high <= self.x[-1] + margin)

@@ -164,6 +164,8 @@ def _domain(case: CaseContents) -> Iterator[tuple[str, str]]:
             f"a quarter is symmetric about y = 0, too, which a {dimensions}-D run does not have; "
             'write extent = "half", or dimensions = 3 in [solver]',
         )
+    if dimensions < 3 and domain.breadth is not None:
+        yield "domain.breadth", no_axis("y", 3, dimensions)
     # Each side holds a few particles at least.
     sides = (("depth", domain.depth), ("width", domain.width), ("breadth", domain.breadth))
     for key, length in sides[:dimensions]:
@@ -213,12 +215,6 @@ def _faces(case: CaseContents) -> Iterator[tuple[str, str]]:
         yield (
             f"boundaries.{key_of_drive(case, 'temperature')}",
             "varies along x, which a 1-D run does not have; write dimensions = 2 in [solver]",
-        )
-    if dimensions == 3 and boundaries.surface_temperature_bump is not None:
-        yield (
-            "boundaries.surface_temperature_bump",
-            "is computed in sections, where r is |x| or the distance from the axis; write "
-            "dimensions = 2 in [solver]",
         )
     if boundaries.surface == "periodic" and case.particles.arrangement == "graded":
         yield (

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from itertools import product
 from typing import TYPE_CHECKING
 
@@ -114,11 +114,11 @@ def _shape(case: CaseContents) -> Iterator[tuple[str, str]]:
             f'"{1e9 * narrowest / FEWEST_COLUMNS:.3g} nm" or less',
         )
     if case.initial_surface is not None:
-        yield from _start(case, case.initial_surface, sides[0])
+        yield from _start(case, case.initial_surface, sides)
 
 
 def _start(
-    case: CaseContents, start: InitialSurface, x: tuple[float, float]
+    case: CaseContents, start: InitialSurface, sides: Sequence[tuple[float, float]]
 ) -> Iterator[tuple[str, str]]:
     """Whether a surface can begin as it is given."""
     # Liquid below the deepest place of the surface at the start.
@@ -142,14 +142,23 @@ def _start(
             f"is a slope of {steepest:.3g}, more than {STEEPEST:.0f}; write a smaller one, or one "
             "that is wider",
         )
+    # A relief over x and y has no place in a section.
+    if start.grid is not None and len(sides) < 2:
+        yield key, no_axis("y", 3, case.solver.dimensions)
+        return
     # A relief from a file must reach from side to side.
-    if not start.covers(*x):
+    for axis, (low, high) in enumerate(sides):
+        if start.covers(axis, low, high):
+            continue
+        places = start.x if start.grid is None else (start.grid.x, start.grid.y)[axis]
+        first, last, begin, end = (
+            format_quantity(place, "m") for place in (places[0], places[-1], low, high)
+        )
+        along = ("as wide as", "as long along y as")[axis]
         yield (
             key,
-            f"has heights from {format_quantity(start.x[0], 'm')} to "
-            f"{format_quantity(start.x[-1], 'm')}, but the domain is as wide as "
-            f"{format_quantity(x[0], 'm')} to {format_quantity(x[1], 'm')}; name the relief of a "
-            "run with this width and extent",
+            f"has heights from {first} to {last}, but the domain is {along} {begin} to {end}; name "
+            f"the relief of a run with this {('width', 'breadth')[axis]} and extent",
         )
 
 

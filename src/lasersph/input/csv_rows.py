@@ -30,6 +30,15 @@ def read_rows(
     return rows
 
 
+def has_columns(file: Path, columns: tuple[str, ...]) -> bool:
+    """Whether the first line of a CSV file names all of these columns; not where there is none."""
+    try:
+        with file.open(newline="", encoding="utf-8-sig") as stream:
+            return set(columns) <= set(next(csv.reader(stream), ()))
+    except (OSError, UnicodeDecodeError, csv.Error):
+        return False
+
+
 def _read(file: Path, columns: tuple[str, ...]) -> tuple[Rows, list[int]]:
     """Rows, and the line of each."""
     try:

@@ -45,6 +45,7 @@ def with_rows_of_file(
     columns: tuple[str, ...],
     *,
     key: str = "rows",
+    wider: tuple[str, ...] = (),
     largest: Mapping[str, float] | None = None,
 ) -> Any:
     """Values of a model with the rows of the CSV file that `path` names, where no rows are given.
@@ -52,16 +53,17 @@ def with_rows_of_file(
     A path counts from the folder of the case file.
 
     Args:
-        columns: names in the file, all in SI. key: under which the rows are kept. largest: of a
-            table over time, see `csv_rows.read_rows`; its times are then in s.
+        columns: names in the file, all in SI. key: under which the rows are kept. wider: names
+            that are read instead where the file has all of them. largest: of a table over time,
+            see `csv_rows.read_rows`; its times are then in s.
     """
     path = data.get("path") if isinstance(data, dict) else None
     if not path or not isinstance(path, str) or data.get(key):
         return data
-    from lasersph.input.csv_rows import read_rows  # few cases name a file
+    from lasersph.input.csv_rows import has_columns, read_rows  # few cases name a file
 
-    folder = (info.context or {}).get("folder") or Path()
-    rows = read_rows(Path(folder) / Path(path).expanduser(), columns, largest)
+    file = Path((info.context or {}).get("folder") or Path()) / Path(path).expanduser()
+    rows = read_rows(file, wider if wider and has_columns(file, wider) else columns, largest)
     over_time = [(f"{row[0]!r} s", *row[1:]) for row in rows] if largest is not None else rows
     return data | {key: over_time}
 

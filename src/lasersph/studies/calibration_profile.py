@@ -78,8 +78,10 @@ class ProfileFit:
 
     @property
     def names(self) -> list[str]:
-        """Of the components, as numbers of a run."""
-        return [f"{COMPONENT}{self.number}.component_{k + 1}_m" for k in range(self.values.size)]
+        """Of the components, as numbers of a run [m]."""
+        # "..._1_m" would end in the unit 1/m
+        numbers = range(1, self.values.size + 1)
+        return [f"{COMPONENT}{self.number}.component_{k}_height_m" for k in numbers]
 
     @property
     def measured(self) -> dict[str, Measured]:

@@ -83,6 +83,7 @@ def test_kind_may_be_left_out():
             (*SPACE, *QUARTER_OF_DOTS, "domain.breadth=6 um"),
             "domain.breadth: 6 um is no whole number of the pattern's periods of",
         ),
+        (("domain.breadth=5 um",), "domain.breadth: says nothing in 2-D, which has no y"),
         (("boundaries.front=adiabatic",), "boundaries.front: says nothing in 2-D, which has no y"),
         ((*SPACE, "solver.pressure=published"), 'solver.pressure: "published" is the matrix of'),
         (("solver.viscosity=explicit", "time.end=1 s"), "solver.viscosity: 1.02e-06 m^2/s needs"),

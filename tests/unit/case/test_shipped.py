@@ -15,7 +15,7 @@ NAMES = (
     "marangoni-layer", "moving-film", "natural-convection", "pulsed-heating", "short-pulse-gold",
     "sound-wave", "spot-film", "spot-steel",
     "spot-weld", "stefan", "taylor-green", "texture-aluminium",
-    "texture-dots-steel", "texture-steel-10ps", "texture-steel",
+    "texture-dots-steel", "texture-hexagons-steel", "texture-steel-10ps", "texture-steel",
 )  # fmt: skip
 
 

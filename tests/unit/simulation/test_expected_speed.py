@@ -24,6 +24,7 @@ COMPUTED = {
     ("texture-steel", ""): 22.31,  # lasersph run texture-steel: largest speed at the surface
     ("texture-aluminium", ""): 29.46,  # the same with particles.spacing=32nm
     ("texture-dots-steel", ""): 14.35,  # the same with particles.spacing=64nm --anyway
+    ("texture-hexagons-steel", ""): 13.46,  # the same
     # lasersph run texture-steel-10ps with 16 nm, to 4 ns: largest speed at the surface
     ("texture-steel-10ps", ""): 1.785,
     ("spot-steel", ""): 11.1,  # lasersph run spot-steel: largest speed at the surface

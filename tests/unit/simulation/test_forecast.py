@@ -37,6 +37,7 @@ LAYERS = {
     "taylor-green": (50, 50, 2500),
     "texture-aluminium": (73, 31, 2799),
     "texture-dots-steel": (30, 15, 102008),
+    "texture-hexagons-steel": (30, 15, 176560),
     "texture-steel": (58, 26, 5491),
     "texture-steel-10ps": (47, 16, 7815),
 }

@@ -8,6 +8,7 @@ from texture_cells import PERIOD, pools, relief, spot, table
 
 import lasersph
 from lasersph.input import CaseError
+from lasersph.input.key_units import unit_of
 from lasersph.output.height_map import HeightMap
 from lasersph.plots.calibration import calibration_figure
 from lasersph.studies import calibration_run
@@ -101,6 +102,7 @@ def test_hidden_factor(tmp_path, seed, factor, scale, rows):
     found = calibrated(read_calibration_plan(plan_of(tmp_path, surface)))
     content = answer(found)
     one, (profile,) = content["unknowns"]["factor"], content["profiles"]
+    assert {unit_of(name) for fit in found.profiles for name in fit.names} == {"m"}
     assert one["low_95"] < factor < one["high_95"]
     assert 0.0005 < one["sd"] < 0.01
     assert profile["lateral_scale"]["value"] == pytest.approx(scale, abs=0.003)

@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 from surface_lines import line_of
 
+from lasersph.surface.height_field import HeightField
+from lasersph.surface.pools import SurfacePools
 from lasersph.surface.segments import SurfaceSegments
 from lasersph.surface.validity import validity_error
 
@@ -39,3 +41,24 @@ def test_thin_liquid():
     assert "the liquid is 25 nm thick at x = 5 nm, less than 3 spacings" in trouble(
         0.4e-6, 0.5, bottom=-5e-8
     )
+
+
+def on_a_slope(slope):
+    """Of columns over x and y, all molten, that rise along the diagonal."""
+    grid = HeightField((0.0, 0.0), (WIDTH, WIDTH), (40, 40), (("mirror",) * 2,) * 2, 6.0 * WIDTH)
+    x, y = grid.places
+    along = np.clip((x + y) / np.sqrt(2.0) - 2.8e-7, -8e-8, 8e-8)
+    grid.height = slope * along
+    pools = SurfacePools(grid)
+    pools.choose(np.ones(grid.count, bool))
+    pools.update_heights()
+    return validity_error(pools, -1e-6, WIDTH)
+
+
+def test_slope_in_space():
+    """That of both axes together counts: 0.8 along each is steeper than 45 degrees; both places are
+    named."""
+    assert on_a_slope(0.8) == ""
+    found = on_a_slope(0.8 * np.sqrt(2.0))
+    assert "the surface has the slope 1." in found
+    assert "at x = " in found and ", y = " in found and "take a weaker drive" in found
