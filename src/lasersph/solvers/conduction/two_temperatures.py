@@ -31,8 +31,8 @@ AHEAD = 4.0
 back to two at once has gained nothing."""
 
 LONGEST_PAUSE = 1e12
-"""Longest step without light over that in the light. Guard: a millisecond after a femtosecond; other
-limits bind before."""
+"""Longest step without light over that in the light. Guard: milliseconds after a femtosecond;
+other limits bind before."""
 
 
 class TwoTemperatures(Conduction):
@@ -50,12 +50,6 @@ class TwoTemperatures(Conduction):
         self.one = self.scheme
         self.two = ElectronStep(body, self.exchange, settings.step_error)
         self.share = settings.equal_within
-
-    @property
-    def iterations(self) -> dict[str, int]:
-        """Iterations of the last step."""
-        scheme = self.two if self.state.has_two else self.one
-        return {"newton": scheme.newton, "linear": scheme.linear}
 
     @property
     def holds_melt(self) -> bool:

@@ -119,9 +119,16 @@ def ablation(study: Study) -> None:
 
 
 def gold_film(study: Study) -> None:
-    """Fluence that melts a free film, beside one of molecular dynamics."""
+    """Absorbed fluence that melts a free film, beside one of molecular dynamics."""
     case = study.case(*study.plan.film)
-    add_threshold(study, "film", 1e4 * lowest(study, case, "melt", "gold-film"), 55.0)
+    electrons = case.material.electrons
+    assert electrons is not None and case.laser is not None
+    # what light and electrons' range leave in the film
+    reach = 1.0 / case.laser.absorption_coefficient(case.material)
+    reach += electrons.ballistic_range or 0.0
+    taken = 1.0 - float(np.exp(-case.domain.depth / reach))
+    found = 1e4 * taken * lowest(study, case, "melt", "gold-film")
+    add_threshold(study, "film", found, study.comparisons["film"].reference or 0.0)
 
 
 def lowest(
