@@ -17,6 +17,9 @@ TITLES = {
     "heat": "Heat between particles at rest, 3-D, whole step",
     "heat-sum": "Heat between particles at rest, 3-D, sum over the pairs alone",
     "implicit": "One implicit step of heat, 2-D, D dt / dx^2 = 5",
+    "electrons": "A pulse of 150 fs on electrons and lattice, 1-D, constant coefficients: the run "
+    "with an error of 1 % as one step",
+    "hot-electrons": "The same with C_e and k_e that grow as T_e",
 }
 AIMS = {
     ("wcsph", "LAMMPS"): 3.0,
@@ -24,6 +27,9 @@ AIMS = {
     ("heat-sum", "LAMMPS"): 4.0,
     ("heat-sum", "PySPH"): 8.0,
     ("implicit", "OpenFOAM"): 0.5,
+    ("electrons", "NTMpy"): 1.0,
+    ("hot-electrons", "NTMpy"): 1.0,
+    ("hot-electrons", "laserttm"): 1.0,
 }
 """Ratio that lasersph is to reach. OpenFOAM's is below 1: its rows are nine times as short."""
 BUSY = 0.9

@@ -19,6 +19,8 @@ import dualsphysics_side
 import fipy_side
 import lammps_side
 import lasersph_side
+import laserttm_side
+import ntmpy_side
 import openfoam_side
 import pysph_side
 import splishsplash_side
@@ -33,7 +35,7 @@ PROGRAMS = [
     side.PROGRAM
     for side in (
         lasersph_side, lammps_side, dualsphysics_side, pysph_side, splishsplash_side,
-        openfoam_side, fipy_side,
+        openfoam_side, fipy_side, ntmpy_side, laserttm_side,
     )
 ]  # fmt: skip
 FULL = {"edge": 58, "sheet": 450, "segments": 5, "steps": 10}

@@ -10,7 +10,10 @@ from lasersph.input import CaseError
 from lasersph.validation import names, runs, validate
 from lasersph.validation.dlip_thermal.finite_volumes import Columns
 
-NOT_MET: dict[str, set[str]] = {"cubes": {"energy"}}
+NOT_MET: dict[str, set[str]] = {
+    "cubes": {"energy"},
+    "two-temperature": {"skin", "explosion", "film"},
+}
 """Kinds of rows that shortened forms do not meet, by validation; the page says why."""
 
 

@@ -22,7 +22,7 @@ from lasersph.materials.caloric_curve import CaloricCurve
 from lasersph.output.settings import DEFAULT_COUNT
 from lasersph.particles.layers import LEAST_BESIDE, Layers
 from lasersph.physics.ablation_estimates import PHASE_EXPLOSION
-from lasersph.physics.electron_lattice import SLOWEST, coupling_time, electrons_of
+from lasersph.physics.electron_lattice import OTHERS_SAY, SLOWEST, coupling_time, electrons_of
 from lasersph.simulation.heating import HeatingForecast
 from lasersph.simulation.layers import electron_reach
 
@@ -273,8 +273,11 @@ def _vapor(case: Case, heating: HeatingForecast) -> Iterator[str]:
 
 
 def _electrons(case: Case, curve: CaloricCurve, heating: HeatingForecast) -> Iterator[str]:
-    """How long electrons are hotter than the lattice, where a pulse is not much longer."""
+    """How long electrons are hotter than the lattice, where a pulse is not much longer; with two
+    temperatures, what other numbers of the electrons would change."""
     if has_two_temperatures(case.solver):
+        if said := OTHERS_SAY.get(case.material.name):
+            yield f"{case.material.name}: {said}"
         return
     material, pulse = case.material, pulse_duration(case)
     # A metal without data for its electrons is judged by the one that couples them most weakly.

@@ -115,7 +115,13 @@ def test_a_pattern_finer_than_the_particles():
 def test_shipped_cases_have_plausible_sizes(name):
     """None of them is taken for a typing error, none is too short for one temperature."""
     warnings = " ".join(forecast(load_case(name)).warnings)
-    assert "its unit" not in warnings and "electrons" not in warnings
+    assert "its unit" not in warnings and "electrons are hotter" not in warnings
+
+
+def test_electrons_of_an_alloy():
+    """Steel says with numbers what iron's would change; metals with data of their own say nothing."""
+    assert "from 0.67 of the fluence" in said("texture-steel-10ps")
+    assert "its electrons are" not in said("short-pulse-gold")
 
 
 def test_check_says_what_the_light_does(capsys):

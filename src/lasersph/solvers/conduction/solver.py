@@ -265,9 +265,10 @@ class Conduction:
         total["newton_residual"] += energy.get("newton_residual", 0.0)
 
 
-def next_light(pulse: PulseTrain, time: float, longest: float) -> float:
-    """Largest step [s] that resolves the light from `time` on: `longest` while it is on."""
+def next_light(pulse: PulseTrain, time: float, longest: float, most: float = 1e4) -> float:
+    """Largest step [s] that resolves the light from `time` on: `longest` while it is on, about
+    `most` times that where none comes."""
     step = longest
-    while step < 1e4 * longest and not pulse.active(time, time + 2.0 * step):
+    while step < most * longest and not pulse.active(time, time + 2.0 * step):
         step *= 2.0
     return step

@@ -30,6 +30,10 @@ AHEAD = 4.0
 """Steps ahead of the last one in which no light may come for a hand-over. Cost: a run that comes
 back to two at once has gained nothing."""
 
+LONGEST_PAUSE = 1e12
+"""Longest step without light over that in the light. Guard: milliseconds after a femtosecond;
+other limits bind before."""
+
 
 class TwoTemperatures(Conduction):
     """Solver of a run with electrons and lattice."""
@@ -46,12 +50,6 @@ class TwoTemperatures(Conduction):
         self.one = self.scheme
         self.two = ElectronStep(body, self.exchange, settings.step_error)
         self.share = settings.equal_within
-
-    @property
-    def iterations(self) -> dict[str, int]:
-        """Iterations of the last step."""
-        scheme = self.two if self.state.has_two else self.one
-        return {"newton": scheme.newton, "linear": scheme.linear}
 
     @property
     def holds_melt(self) -> bool:
@@ -72,7 +70,10 @@ class TwoTemperatures(Conduction):
         first = FIRST_SHARE * 100.0 * laser.pulse.resolution
         is_lit = laser.pulse.active(state.time, state.time + first)
         if not state.has_two and not is_lit:
-            return super().time_step_limits()
+            # one temperature: pauses are longer than the pulse by more than it expects
+            limits, name = super().time_step_limits(), name_of_longest(True)
+            longest = time.step or 0.5 * laser.pulse.resolution
+            return limits | {name: next_light(laser.pulse, state.time, longest, LONGEST_PAUSE)}
 
         # two temperatures: light is not jumped over, and the error of the last step bounds the next
         limits = common_limits(time, state.time, laser.pulse)

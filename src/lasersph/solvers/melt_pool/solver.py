@@ -315,12 +315,16 @@ class MeltPool:
         self.layout_renewal.lay_out()
 
     def _melt(self) -> bool:
-        """Whether anything flows."""
+        """Whether anything flows. Melt that rests under hot electrons keeps its velocity."""
         self._find_fluid()
-        flows = self.fluid_count > 0.0 and not self.heat.holds_melt
-        if not flows:
+        if self.fluid_count == 0.0:
             self.flow.stop_all()
-        return flows
+        return self.fluid_count > 0.0 and not self.heat.holds_melt
+
+    @property
+    def melt_rests(self) -> bool:
+        """Whether melt was held in the last step, by electrons hotter than its lattice."""
+        return self.settings.has_two_temperatures and not self._has_moved
 
     def _end_of_pause(self) -> float | None:
         """Start of the next pulse [s] where the pause before it is to be left out now."""

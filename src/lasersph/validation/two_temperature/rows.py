@@ -2,11 +2,18 @@
 
 from __future__ import annotations
 
+from os import PathLike
+from pathlib import Path
+
 import numpy as np
 
 from lasersph.analytic.two_temperatures import HalfSpace, pulse_rise
+from lasersph.case import Case
 from lasersph.output import Run
+from lasersph.simulation.case_forecast import skin_estimate
+from lasersph.studies.fluence_threshold import Event, threshold
 from lasersph.validation.drawing import Panel, exact, marks
+from lasersph.validation.runs import run_case
 from lasersph.validation.study import Study
 
 PARTS = {"electrons": "electron_temperature", "lattice": "temperature"}
@@ -16,11 +23,13 @@ DRAWN = 1e-6
 
 
 def compare(study: Study) -> None:
-    """Judge the half space, the two limits and the energy."""
+    """Judge the half space, the two limits, the energy, and thresholds beside measured ones."""
     half_space(study)
     strong_coupling(study)
     long_pulse(study)
     energy(study)
+    ablation(study)
+    gold_film(study)
 
 
 def half_space(study: Study) -> None:
@@ -84,6 +93,63 @@ def energy(study: Study) -> None:
     seen, absorbed = one.summary["electrons"], one.summary["energy"]["absorbed_J"]
     study.add("energy", (seen["energy_J"] + seen["lattice_energy_J"]) / absorbed, 1.0)
     study.add("latent", 1e9 * one.summary["melt"]["depth_half_max_m"])
+
+
+def ablation(study: Study) -> None:
+    """Both estimates of ablation beside thresholds measured in air, and where melting begins."""
+    seen: set[str] = set()
+    for one in study.plan.measured:
+        metal, measured = one["metal"], one["threshold"]
+        settings = (
+            f"material={metal}",
+            f"laser.reflectivity={one['reflectivity']}",
+            f"laser.absorption.absorption_coefficient={one['absorption']} 1/m",
+            f"laser.fluence={measured} J/cm^2",
+            *study.plan.short,
+        )
+        case = study.case(*settings)
+        words = {"metal": metal, "paper": one["source"]}
+        add_threshold(study, "skin", skin_estimate(case), measured, **words)
+        if "explodes" in one:
+            found = lowest(study, case, "explode", f"{metal}-explode", one["explodes"])
+            add_threshold(study, "explosion", found, measured, **words)
+        if metal not in seen:
+            study.add("molten", lowest(study, case, "melt", f"{metal}-melt"), metal=metal)
+            seen.add(metal)
+
+
+def gold_film(study: Study) -> None:
+    """Absorbed fluence that melts a free film, beside one of molecular dynamics."""
+    case = study.case(*study.plan.film)
+    electrons = case.material.electrons
+    assert electrons is not None and case.laser is not None
+    # what light and electrons' range leave in the film
+    reach = 1.0 / case.laser.absorption_coefficient(case.material)
+    reach += electrons.ballistic_range or 0.0
+    taken = 1.0 - float(np.exp(-case.domain.depth / reach))
+    found = 1e4 * taken * lowest(study, case, "melt", "gold-film")
+    add_threshold(study, "film", found, study.comparisons["film"].reference or 0.0)
+
+
+def lowest(
+    study: Study, case: Case, of: Event, name: str, ends: list[float] | None = None
+) -> float:
+    """Threshold of a case, between two ends where they are given [J/cm^2]."""
+
+    def kept(one: Case, folder: str | PathLike[str]) -> Run:
+        return run_case(one, Path(folder), threads=study.threads, backend=study.device)
+
+    tolerance, folder = study.plan.tolerance, study.folder / "runs" / name
+    bracket = (1e4 * ends[0], 1e4 * ends[1]) if ends else None
+    return 1e-4 * threshold(case, of, folder, tolerance=tolerance, bracket=bracket, run=kept).value
+
+
+def add_threshold(
+    study: Study, kind: str, found: float | None, measured: float, **words: str
+) -> None:
+    """A row whose band is a factor either way: below the measured one it is 1 - 1/1.5."""
+    is_below = found is not None and found < measured
+    study.add(kind, found, measured, share=2.0 / 3.0 if is_below else 1.0, **words)
 
 
 def draw(study: Study, one: Run) -> None:

@@ -34,7 +34,7 @@ def flow_view(case: Case, solver: MeltPool, fetch: Callable[[Array], np.ndarray]
         temperature = backend.host_view(solver.particles["temperature"])[surface]
         gradient = _along_x(temperature, position[:, surface])
         # Where the surface is computed, temperature and gradient of the surface itself.
-        if solver.fluid_count > 0.0 and flow.has_block:
+        if solver.fluid_count > 0.0 and flow.has_block and not solver.melt_rests:
             of_surface = backend.host_view(free.temperature)[surface]
             known = backend.host_view(solver.kinds.active)[surface] > 0.0
             if free.moves:  # a surface that moves is known where it flows only
@@ -44,7 +44,7 @@ def flow_view(case: Case, solver: MeltPool, fetch: Callable[[Array], np.ndarray]
             gradient = _along_x(temperature, position[:, surface])
             gradient = np.where(known, _size(backend.host_view(free.gradient), surface), gradient)
         # Velocity of the surface: that of the particle and half the jump to its ghost.
-        flows = backend.host_view(solver.kinds.fluid)[surface]
+        flows = backend.host_view(solver.kinds.fluid)[surface] * (not solver.melt_rests)
         level = velocity.shape[0] - 1
         jump = np.atleast_2d(backend.host_view(free.ghost_velocity_jump)[..., surface])[:level]
         speed = velocity[:level, surface] + flows * (0.5 * jump)

@@ -1,0 +1,64 @@
+"""Two pulses of 10 ps on steel, the second on melt that has moved: books, hand-over, same bits."""
+
+import numpy as np
+import pytest
+from reliability_runs import assert_same
+
+import lasersph
+from lasersph.case import load_case
+from lasersph.simulation import run
+from lasersph.simulation.time_loop import Stopped
+
+TRAIN = (
+    "laser.fluence=0.16 J/cm^2", "laser.pulse.count=2", "laser.pulse.period=0.8 ns",
+    "particles.spacing=32 nm", "particles.coarsest=0.4 um", "domain.depth=1 um",
+    "domain.width=2.5 um", "laser.beam.period=2.5 um", "time.end=0.95 ns",
+    "output.snapshots.interval=0.5 ns", "output.checkpoint_every=25",
+)  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def train(tmp_path_factory):
+    """The run from its begin to its end."""
+    folder = tmp_path_factory.mktemp("train") / "whole"
+    run(load_case("texture-steel-10ps", TRAIN), folder, threads=2, warn=None)
+    return folder
+
+
+def test_electrons_come_back_on_melt_that_has_moved(train):
+    """Electrons are hot twice; in between there is one temperature, and the surface moves."""
+    history = lasersph.open_run(train).history
+    time, lattice = history["time_s"], history["temperature_max_K"]
+    apart = history["electrons.temperature_max_K"] - lattice
+    between, second = (time > 0.6e-9) & (time < 0.79e-9), time > 0.81e-9
+    assert np.max(apart[time < 1e-10]) > 1000.0 and np.max(apart[second]) > 1000.0
+    assert np.max(np.abs(apart[between])) < 1e-6
+    # melt that flows, and a surface that is no plane any more when the second light comes
+    assert np.max(history["flow_speed_max_m_s"][between]) > 1.0
+    assert np.max(history["topography.peak_to_valley_m"][between]) > 1e-10
+
+
+def test_books_of_the_train(train):
+    """What is held and lost was absorbed: to rounding with two temperatures, 1e-5 where it flows."""
+    history = lasersph.open_run(train).history
+    time, missing = history["time_s"], np.abs(history["energy_imbalance_relative"])
+    is_lit = (time < 60e-12) | ((time > 0.81e-9) & (time < 0.85e-9))
+    assert np.max(missing[is_lit]) < 1e-12
+    assert np.max(missing) < 1e-5
+
+
+def test_stopped_under_the_second_pulse(train, tmp_path):
+    """A resumed run ends with the same bits."""
+    case, done = load_case("texture-steel-10ps", TRAIN), []
+    history = lasersph.open_run(train).history
+    row = int(np.searchsorted(history["time_s"], 0.83e-9))
+    steps = int(history["step"][row])
+
+    def should_stop():
+        done.append(1)
+        return len(done) == steps
+
+    with pytest.raises(Stopped):
+        run(case, tmp_path / "run", threads=2, warn=None, should_stop=should_stop)
+    run(case, tmp_path / "run", resume=True, threads=2, warn=None)
+    assert_same(tmp_path / "run", train)
