@@ -42,11 +42,11 @@ ELECTRONS = {
 SLOWEST = ELECTRONS["gold"]
 """Taken for a metal that has no numbers here: none of the others couples as weakly."""
 OTHERS_SAY = {
-    "steel-304": "its electrons are those computed for Fe-Cr-Ni; with those of iron, which couple ten "
-    "times as strongly, 150 fs melt it from 0.67 of the fluence on, and at twice that its surface is "
-    "1.4 times as hot and its melt as deep within 2 %"
+    "steel-304": "its electrons are those computed for Fe-Cr-Ni; with those of iron, which couple "
+    "ten times as strongly, 150 fs melt it from 0.67 of the fluence on, and at twice that its "
+    "surface is 1.4 times as hot and its melt as deep within 2 %"
 }
-"""What other numbers of the electrons would change, by metal: `docs/methods/two_temperatures.md`."""
+"""Changes by other numbers of the electrons, by metal: `docs/methods/two_temperatures.md`."""
 ALLOYS = {"inconel": "nickel", "ti": "titanium"}
 """Metals that make up most of an alloy, by the first word of its name."""
 

@@ -119,7 +119,7 @@ def test_shipped_cases_have_plausible_sizes(name):
 
 
 def test_electrons_of_an_alloy():
-    """Steel says with numbers what iron's would change; metals with data of their own say nothing."""
+    """Steel says with numbers what iron's would change; other metals say nothing."""
     assert "from 0.67 of the fluence" in said("texture-steel-10ps")
     assert "its electrons are" not in said("short-pulse-gold")
 

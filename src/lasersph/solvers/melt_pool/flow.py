@@ -231,6 +231,10 @@ class Flow:
             self.backend.fill(self.particles["settled_jump"], 0.0)
         self.largest_speed = self.largest_acceleration = 0.0
         self.divergence = (0.0, 0.0)
+        self.solve_nothing()
+
+    def solve_nothing(self) -> None:
+        """Leave velocities as they are: nothing is solved in this step."""
         self.iterations = {"pressure": 0, "viscosity": 0}
 
     def stop_solid(self, kinds: ParticleKinds) -> None:

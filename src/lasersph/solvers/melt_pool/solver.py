@@ -319,12 +319,9 @@ class MeltPool:
         self._find_fluid()
         if self.fluid_count == 0.0:
             self.flow.stop_all()
+        elif self.heat.holds_melt:
+            self.flow.solve_nothing()
         return self.fluid_count > 0.0 and not self.heat.holds_melt
-
-    @property
-    def melt_rests(self) -> bool:
-        """Whether melt was held in the last step, by electrons hotter than its lattice."""
-        return self.settings.has_two_temperatures and not self._has_moved
 
     def _end_of_pause(self) -> float | None:
         """Start of the next pulse [s] where the pause before it is to be left out now."""

@@ -11,6 +11,7 @@ import numpy as np
 
 from lasersph.boundaries.settings import DIRICHLET, NEUMANN
 from lasersph.case import Case
+from lasersph.case.solver_choice import has_two_temperatures
 from lasersph.compute.array_types import Array
 from lasersph.observers.flow_view import FlowView
 from lasersph.physics.recoil import recoil_at
@@ -26,6 +27,8 @@ def flow_view(case: Case, solver: MeltPool, fetch: Callable[[Array], np.ndarray]
     position, velocity = fetch(solver.position), fetch(flow.velocity)
     pressure = fetch(flow.pressure)
     temperature = gradient = speed = np.zeros(0)
+    # melt that electrons hotter than it hold: the surface of the last flow is no longer its own
+    rests = has_two_temperatures(case.solver) and not solver.checkpoint_scalars()["has_moved"]
 
     # Surface particles from left to right, with the temperature of their centers.
     found = np.asarray(backend.host_view(backend.rows_where(free.at_surface, 1.0)), np.int64)
@@ -34,7 +37,7 @@ def flow_view(case: Case, solver: MeltPool, fetch: Callable[[Array], np.ndarray]
         temperature = backend.host_view(solver.particles["temperature"])[surface]
         gradient = _along_x(temperature, position[:, surface])
         # Where the surface is computed, temperature and gradient of the surface itself.
-        if solver.fluid_count > 0.0 and flow.has_block and not solver.melt_rests:
+        if solver.fluid_count > 0.0 and flow.has_block and not rests:
             of_surface = backend.host_view(free.temperature)[surface]
             known = backend.host_view(solver.kinds.active)[surface] > 0.0
             if free.moves:  # a surface that moves is known where it flows only
@@ -44,7 +47,7 @@ def flow_view(case: Case, solver: MeltPool, fetch: Callable[[Array], np.ndarray]
             gradient = _along_x(temperature, position[:, surface])
             gradient = np.where(known, _size(backend.host_view(free.gradient), surface), gradient)
         # Velocity of the surface: that of the particle and half the jump to its ghost.
-        flows = backend.host_view(solver.kinds.fluid)[surface] * (not solver.melt_rests)
+        flows = backend.host_view(solver.kinds.fluid)[surface] * (not rests)
         level = velocity.shape[0] - 1
         jump = np.atleast_2d(backend.host_view(free.ghost_velocity_jump)[..., surface])[:level]
         speed = velocity[:level, surface] + flows * (0.5 * jump)
