@@ -118,8 +118,8 @@ def fine_grid(pulse: Pulse, cells: int) -> NDArray[np.float64]:
         heated = (gained - exchanged) / (pulse.capacity * hot)
         return np.concatenate([heated, exchanged / pulse.lattice])
 
-    itself = diags([1.0], [0], shape=(cells, cells))
-    band = diags([1.0, 1.0, 1.0], [-1, 0, 1], shape=(cells, cells))
+    itself = diags([1.0], [0], shape=(cells, cells))  # pyright: ignore[reportArgumentType]
+    band = diags([1.0, 1.0, 1.0], [-1, 0, 1], shape=(cells, cells))  # pyright: ignore[reportArgumentType]
     found = solve_ivp(
         rates, (0.0, pulse.times[-1]), np.full(2 * cells, COLD), method="BDF",
         t_eval=pulse.times, rtol=1e-8, atol=1e-6, max_step=pulse.fwhm,
@@ -143,7 +143,7 @@ def stretched(thickness: float, cells: int) -> NDArray[np.float64]:
         middle = 0.5 * (low + high)
         is_long = FINEST * (middle**cells - 1.0) > thickness * (middle - 1.0)
         low, high = (low, middle) if is_long else (middle, high)
-    return thickness * (high**number - 1.0) / (high**cells - 1.0)
+    return thickness * (high**number - 1.0) / (high**cells - 1.0)  # pyright: ignore[reportReturnType]
 
 
 def at_depths(depth: NDArray[Any], T: NDArray[Any], pulse: Pulse) -> NDArray[np.float64]:
@@ -221,5 +221,5 @@ def answers_of(
     text = output_of([python, str(CASES / script), given], folder=folder)
     return [
         Answer(one["points"], one["wall"], one["processor"], np.array(one["temperature"]))
-        for one in json_line(text)["runs"]
+        for one in json_line(text)["runs"]  # pyright: ignore[reportGeneralTypeIssues]
     ]

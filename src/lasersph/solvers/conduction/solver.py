@@ -38,6 +38,10 @@ def clip_enthalpy(h, m, h_limit):
     return min(h, h_limit), m * max(h - h_limit, 0.0)
 
 
+LONGEST_PAUSE = 1e4
+"""Longest step without light over that in the light. Guard: other limits bind before."""
+
+
 class Conduction:
     """Solver of a run that computes heat, melting and the vaporization plateau.
 
@@ -265,7 +269,9 @@ class Conduction:
         total["newton_residual"] += energy.get("newton_residual", 0.0)
 
 
-def next_light(pulse: PulseTrain, time: float, longest: float, most: float = 1e4) -> float:
+def next_light(
+    pulse: PulseTrain, time: float, longest: float, most: float = LONGEST_PAUSE
+) -> float:
     """Largest step [s] that resolves the light from `time` on: `longest` while it is on, about
     `most` times that where none comes."""
     step = longest

@@ -30,7 +30,7 @@ AHEAD = 4.0
 """Steps ahead of the last one in which no light may come for a hand-over. Cost: a run that comes
 back to two at once has gained nothing."""
 
-LONGEST_PAUSE = 1e12
+FEMTOSECOND_PAUSE = 1e12
 """Longest step without light over that in the light. Guard: milliseconds after a femtosecond;
 other limits bind before."""
 
@@ -73,7 +73,7 @@ class TwoTemperatures(Conduction):
             # one temperature: pauses are longer than the pulse by more than it expects
             limits, name = super().time_step_limits(), name_of_longest(True)
             longest = time.step or 0.5 * laser.pulse.resolution
-            return limits | {name: next_light(laser.pulse, state.time, longest, LONGEST_PAUSE)}
+            return limits | {name: next_light(laser.pulse, state.time, longest, FEMTOSECOND_PAUSE)}
 
         # two temperatures: light is not jumped over, and the error of the last step bounds the next
         limits = common_limits(time, state.time, laser.pulse)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from os import PathLike
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -136,7 +137,7 @@ def lowest(
 ) -> float:
     """Threshold of a case, between two ends where they are given [J/cm^2]."""
 
-    def kept(one: Case, folder: str | PathLike[str]) -> Run:
+    def kept(one: Case, folder: str | PathLike[str]) -> Any:
         return run_case(one, Path(folder), threads=study.threads, backend=study.device)
 
     tolerance, folder = study.plan.tolerance, study.folder / "runs" / name
@@ -145,7 +146,7 @@ def lowest(
 
 
 def add_threshold(
-    study: Study, kind: str, found: float | None, measured: float, **words: str
+    study: Study, kind: str, found: float | None, measured: float, **words: Any
 ) -> None:
     """A row whose band is a factor either way: below the measured one it is 1 - 1/1.5."""
     is_below = found is not None and found < measured
