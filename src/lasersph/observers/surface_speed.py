@@ -209,7 +209,7 @@ def is_beside(places: np.ndarray, at: np.ndarray) -> np.ndarray:
 def part_along(direction: np.ndarray, vectors: np.ndarray) -> np.ndarray:
     """Horizontal part (m,) of vectors (d, m) along a direction (d - 1,), component by component: so
     it is computed where the vectors are, on a graphics card, too."""
-    return sum(direction[k] * vectors[k] for k in range(direction.size))
+    return reduce(np.add, (direction[k] * vectors[k] for k in range(direction.size)))
 
 
 def velocity_below(

@@ -156,9 +156,7 @@ class ImplicitStep:
         allowed = self.tolerance * max(exchanged, energy["absorbed"] + abs(energy["lost"]), error)
         allowed = max(allowed, self.rounding * self.size)
 
-        # assemble, solve, correct until sum
-        # r
-        #  is small enough
+        # assemble, solve, correct until sum |r| is small enough
         while error > allowed:
             if self.newton == self.max_iterations:
                 raise NotConverged(
