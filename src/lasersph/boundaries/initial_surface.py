@@ -10,16 +10,19 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import Field, ValidationInfo, model_validator
 
-from lasersph.boundaries.relief_grid import BEYOND, ReliefGrid
 from lasersph.input import Length, Model, format_quantity, refusal, with_rows_of_file
 
 if TYPE_CHECKING:
+    from lasersph.boundaries.relief_grid import ReliefGrid
     from lasersph.boundaries.surface_shapes import SurfaceShape
 
 Array = NDArray[np.float64]
 COLUMNS = ("x_m", "height_m")
 OVER_BOTH = ("x_m", "y_m", "height_m")
 """Columns of a relief over x and y."""
+BEYOND = 1.0
+"""Widths of its columns by which a relief may end before the surface does. Geometry: columns have
+heights in their middle, and those of another run may be wider."""
 STEEPEST = 1.0
 """Slope up to which the surface is computed. Guard: ghosts across tangents steeper than 45 degrees
 meet."""
@@ -134,6 +137,8 @@ class InitialSurface(Model):
     @cached_property
     def grid(self) -> ReliefGrid | None:
         """Heights of a file over x and y; None where there are none."""
+        from lasersph.boundaries.relief_grid import ReliefGrid
+
         is_even = self._is_over_both and all(len(row) == 3 for row in self.rows)
         return ReliefGrid.of(np.array(self.rows)) if is_even else None
 
@@ -208,7 +213,7 @@ class InitialSurface(Model):
         """Whether it has heights from `low` to `high` [m] along an axis; all but a file have
         everywhere, and one without y has along y."""
         if self.grid is not None:
-            return self.grid.covers(axis, low, high)
+            return self.grid.covers(axis, low, high, BEYOND)
         if not self.rows or axis == 1:
             return True
         # columns at the ends of the relief reach half of their width further

@@ -8,9 +8,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
-BEYOND = 1.0
-"""Widths of its columns by which a relief may end before the surface does. Geometry: columns have
-heights in their middle, and those of another run may be wider."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,10 +46,11 @@ class ReliefGrid:
         along_y = self.at(x, y + half) - self.at(x, y - half)
         return float(np.hypot(along_x, along_y).max()) / width
 
-    def covers(self, axis: int, low: float, high: float) -> bool:
-        """Whether it has heights from `low` to `high` [m] along an axis."""
+    def covers(self, axis: int, low: float, high: float, beyond: float) -> bool:
+        """Whether it has heights from `low` to `high` [m] along an axis, or ends so many widths of
+        its columns before."""
         places = (self.x, self.y)[axis]
-        margin = BEYOND * (places[-1] - places[0]) / (places.size - 1)
+        margin = beyond * (places[-1] - places[0]) / (places.size - 1)
         return bool(places[0] - margin <= low and high <= places[-1] + margin)
 
 

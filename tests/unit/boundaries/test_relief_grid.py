@@ -28,8 +28,8 @@ def test_linear_between_places():
     at = np.array([0.0, 1.0, 2.5, 3.0, 9.0]), np.array([0.0, 2.0, 0.5, 1.0, -1.0])
     assert grid.at(*at) == pytest.approx([0.0, 5.0, 3.5, 5.0, 3.0])
     assert grid.steepest(0.2) == pytest.approx(np.hypot(1.0, 2.0))
-    assert grid.covers(0, -1.0, 4.0) and not grid.covers(0, -2.0, 3.0)
-    assert grid.covers(1, -1.0, 3.0) and not grid.covers(1, 0.0, 3.5)
+    assert grid.covers(0, -1.0, 4.0, 1.0) and not grid.covers(0, -2.0, 3.0, 1.0)
+    assert grid.covers(1, -1.0, 3.0, 1.0) and not grid.covers(1, 0.0, 3.5, 1.0)
 
 
 def rows(text):
