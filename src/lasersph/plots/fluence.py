@@ -19,6 +19,8 @@ SINGLE = 5.3
 """Height of one map [inch]."""
 LINE = 0.18
 """Height of a line of the note above [inch]."""
+BESIDE, NARROWEST = 1.6, 5.2
+"""Width of a map's labels and color bar, and of a note [inch]."""
 
 
 class Map(Protocol):
@@ -50,5 +52,9 @@ def fluence_figure(maps: Sequence[Map], note: str) -> Figure:
         title = f"{each.words}, at most {highest:.4g} J/cm$^2$"
         style.label(axes, f"x [{unit.name}]", f"y [{unit.name}]", title=title)
         style.color_bar(axes, picture, "fluence of a pulse [J/cm$^2$]")
+    # A tall map leaves no white beside it.
+    if len(maps) == 1:
+        tall = (edges[3] - edges[2]) / (edges[1] - edges[0])
+        figure.set_figwidth(min(style.WIDTH, max(NARROWEST, SINGLE / tall + BESIDE)))
     figure.suptitle(note, fontsize=9.5)
     return figure
