@@ -8,8 +8,8 @@ KEY = re.compile(r"\[([A-Za-z][A-Za-z\-]*(?:19|20)\d\d[a-z]?)\b")
 
 
 def test_citations_are_in_the_bibliography():
-    """Each `[Name2020]` in a source file, alone or with an equation, is a key of references.bib, each
-    of which stands there once."""
+    """Each `[Name2020]` in a source file, alone or with an equation, is a key of references.bib;
+    none stands there twice."""
     bibliography = (ROOT / "docs" / "references.bib").read_text(encoding="utf-8")
     listed = re.findall(r"^@\w+\{([^,]+),", bibliography, flags=re.MULTILINE)
     known = set(listed)
