@@ -13,7 +13,7 @@ TRAIN = (
     "laser.fluence=0.16 J/cm^2", "laser.pulse.count=2", "laser.pulse.period=0.8 ns",
     "particles.spacing=32 nm", "particles.coarsest=0.4 um", "domain.depth=1 um",
     "domain.width=2.5 um", "laser.beam.period=2.5 um", "time.end=0.95 ns",
-    "output.snapshots.interval=0.5 ns", "output.checkpoint_every=25",
+    "output.snapshots={ interval = '0.5 ns' }", "output.checkpoint_every=25",
 )  # fmt: skip
 
 
