@@ -1,12 +1,13 @@
 """Numbers of the flow that no paper gives, by what they do to a cavity and a dam break.
 
     python benchmarks/flow_numbers.py            the tables of docs/notes/2026-11-flow-numbers.md
-    python benchmarks/flow_numbers.py --only cavity, vortices, dam-break or speeds
+    python benchmarks/flow_numbers.py --only cavity, vortices, cubes, dam-break or speeds
 
 The cavity under a moving lid at Re 400 with 20 particles a side, its center lines beside finite
 differences, for support ratios, factors of the shifting and shares of the advection limit; the
-front of a dam break with 10 and 20 particles in the width of the column; how much single particles
-move the speeds that are reported of a steady cavity under a surface that is warm in the middle.
+energy of vortices in a cube at Re 50 for factors of the shifting; the front of a dam break with 10
+and 20 particles in the width of the column; how much single particles move the speeds that are
+reported of a steady cavity under a surface that is warm in the middle.
 """
 
 from __future__ import annotations
@@ -20,6 +21,8 @@ import numpy as np
 from lasersph import load_case, open_run, run
 from lasersph.physics import flow_limits
 from lasersph.solvers.step_control import StepFailed
+from lasersph.validation.cubes.rows import energy_share
+from lasersph.validation.cubes.rows import vortices_of as cube_of
 from lasersph.validation.dam_break.rows import front_of
 from lasersph.validation.lid_driven_cavity.center_lines import center_line
 from lasersph.validation.lid_driven_cavity.rows import deviation, lines_of
@@ -35,6 +38,10 @@ CAVITIES = (
 COLUMNS = (10, 20)
 VORTICES = ((0.01, 0.03), (0.01, 0.06), (0.01, 0.12), (0.01, 0.25), (0.002, 0.06), (0.002, 0.25))
 """Kinematic viscosity [m^2/s], for Re 100 and 500, and share of the advection limit."""
+CUBES = tuple((count, shifting) for shifting in (0.01, 0.04, 0.16, 0.5) for count in (24, 48))
+"""Particles a period, and factor of the shifting."""
+EXACT = 0.8835378
+"""Energy after 1 s over that of the start, from `validation/cubes/vortices.csv`."""
 SPEEDS = ("flow_surface_speed_max_m_s", "flow_surface_speed_mean_m_s",
           "flow_speed_max_m_s", "flow_speed_rms_m_s")  # fmt: skip
 
@@ -72,6 +79,12 @@ def vortices(folder: Path, viscosity: float, advection: float) -> str:
     return f"rate {energy_rate(found, wanted):.4f}  error {100.0 * error:.2f} %, {steps} steps"
 
 
+def vortices_in_a_cube(folder: Path, count: int, shifting: float) -> str:
+    """Energy after 1 s over the exact one, less one, in %."""
+    run(load_case("lid-driven-cube", cube_of(50, count, shifting, 1.0)), folder, threads=1)
+    return f"{100.0 * (energy_share(open_run(folder), 1.0) / EXACT - 1.0):.2f} %"
+
+
 def front(folder: Path, count: int) -> str:
     """Places of the front at some times and its speed from T = 1.4 on."""
     case = load_case("dam-break", [f"particles.spacing={57.15 / count!r} mm"])
@@ -104,7 +117,7 @@ def speeds(folder: Path, reynolds: float) -> str:
 def main() -> None:
     """Print the tables."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
-    parser.add_argument("--only", choices=("cavity", "vortices", "dam-break", "speeds"))
+    parser.add_argument("--only", choices=("cavity", "vortices", "cubes", "dam-break", "speeds"))
     only = parser.parse_args().only
     with tempfile.TemporaryDirectory() as place:
         if only in (None, "cavity"):
@@ -113,6 +126,10 @@ def main() -> None:
         if only in (None, "vortices"):
             for number, numbers in enumerate(VORTICES):
                 print(*numbers, vortices(Path(place) / f"vortices-{number}", *numbers), flush=True)
+        if only in (None, "cubes"):
+            for number, numbers in enumerate(CUBES):
+                found = vortices_in_a_cube(Path(place) / f"cube-{number}", *numbers)
+                print(*numbers, found, flush=True)
         if only in (None, "dam-break"):
             for count in COLUMNS:
                 print(count, front(Path(place) / f"column-{count}", count), flush=True)

@@ -9,9 +9,11 @@ import time
 from pathlib import Path
 
 import numpy as np
+import pytest
 
 from lasersph.case import load_case
 from lasersph.output import open_run
+from lasersph.simulation.time_loop import Stopped, run
 
 CASE = "dlip-steel"
 SETTINGS = (
@@ -117,3 +119,16 @@ def assert_same(folder: Path, reference: Path, but: tuple[str, ...] = ()) -> Non
     assert list(snapshot) == list(expected[2])
     for name, values in snapshot.items():
         assert np.array_equal(values, expected[2][name]), name
+
+
+def stop_and_resume(case, folder, steps):
+    """Run a case on two threads, stopped after some steps and continued."""
+    done = []
+
+    def should_stop():
+        done.append(1)
+        return len(done) == steps
+
+    with pytest.raises(Stopped):
+        run(case, folder, threads=2, warn=None, should_stop=should_stop)
+    run(case, folder, resume=True, threads=2, warn=None)

@@ -2,12 +2,11 @@
 
 import numpy as np
 import pytest
-from reliability_runs import assert_same
+from reliability_runs import assert_same, stop_and_resume
 
 import lasersph
 from lasersph.case import load_case
 from lasersph.simulation import run
-from lasersph.simulation.time_loop import Stopped
 
 TRAIN = (
     "laser.fluence=0.16 J/cm^2", "laser.pulse.count=2", "laser.pulse.period=0.8 ns",
@@ -53,16 +52,9 @@ def test_books_of_the_train(train):
 
 def test_stopped_under_the_second_pulse(train, tmp_path):
     """A resumed run ends with the same bits."""
-    case, done = load_case("texture-steel-10ps", TRAIN), []
+    case = load_case("texture-steel-10ps", TRAIN)
     history = lasersph.open_run(train).history
     row = int(np.searchsorted(history["time_s"], 0.83e-9))
     steps = int(history["step"][row])
-
-    def should_stop():
-        done.append(1)
-        return len(done) == steps
-
-    with pytest.raises(Stopped):
-        run(case, tmp_path / "run", threads=2, warn=None, should_stop=should_stop)
-    run(case, tmp_path / "run", resume=True, threads=2, warn=None)
+    stop_and_resume(case, tmp_path / "run", steps)
     assert_same(tmp_path / "run", train)

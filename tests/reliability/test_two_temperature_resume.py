@@ -1,11 +1,10 @@
 """A run with two temperatures, stopped in any stage and resumed, ends with the same bits."""
 
 import pytest
-from reliability_runs import assert_same
+from reliability_runs import assert_same, stop_and_resume
 from short_pulses import GOLD, case_of
 
 from lasersph.simulation import run
-from lasersph.simulation.time_loop import Stopped
 
 TRAIN = (
     "laser.pulse={ kind = 'square', duration = '1 ps', count = 2, period = '0.2 ns' }",
@@ -19,13 +18,5 @@ def test_stopped_and_resumed(tmp_path, steps):
     """Stopped under the light and after the hand-over, with a pulse still to come."""
     case = case_of(tmp_path, *GOLD, *TRAIN)
     run(case, tmp_path / "whole", threads=2, warn=None)
-    done = []
-
-    def should_stop():
-        done.append(1)
-        return len(done) == steps
-
-    with pytest.raises(Stopped):
-        run(case, tmp_path / "run", threads=2, warn=None, should_stop=should_stop)
-    run(case, tmp_path / "run", resume=True, threads=2, warn=None)
+    stop_and_resume(case, tmp_path / "run", steps)
     assert_same(tmp_path / "run", tmp_path / "whole")

@@ -46,7 +46,7 @@ OTHERS_SAY = {
     "ten times as strongly, 150 fs melt it from 0.67 of the fluence on, and at twice that its "
     "surface is 1.4 times as hot and its melt as deep within 2 %"
 }
-"""Changes by other numbers of the electrons, by metal: `docs/methods/two_temperatures.md`."""
+"""Changes by other numbers of the electrons, by metal: `python benchmarks/other_electrons.py`."""
 ALLOYS = {"inconel": "nickel", "ti": "titanium"}
 """Metals that make up most of an alloy, by the first word of its name."""
 

@@ -54,7 +54,7 @@ def fluence_figure(maps: Sequence[Map], note: str) -> Figure:
         style.color_bar(axes, picture, "fluence of a pulse [J/cm$^2$]")
     # A tall map leaves no white beside it.
     if len(maps) == 1:
-        tall = (edges[3] - edges[2]) / (edges[1] - edges[0])
+        tall = np.ptp(maps[0].y) / np.ptp(maps[0].x)
         figure.set_figwidth(min(style.WIDTH, max(NARROWEST, SINGLE / tall + BESIDE)))
     figure.suptitle(note, fontsize=9.5)
     return figure

@@ -39,7 +39,8 @@ def clip_enthalpy(h, m, h_limit):
 
 
 LONGEST_PAUSE = 1e4
-"""Longest step without light over that in the light. Guard: other limits bind before."""
+"""Longest step without light over that in the light. Guard: after nanoseconds of light
+that of cooling binds before."""
 
 
 class Conduction:
@@ -47,7 +48,10 @@ class Conduction:
 
     Attributes:
         particles: their fields. state: numbers that survive a step.
+        longest_pause: longest step without light over that in the light.
     """
+
+    longest_pause = LONGEST_PAUSE
 
     def __init__(
         self,
@@ -155,7 +159,9 @@ class Conduction:
             if longest is None and pulse is not None:
                 longest = 0.5 * pulse.resolution
             if longest is not None:
-                limits[name] = longest if pulse is None else next_light(pulse, state.time, longest)
+                limits[name] = longest
+            if longest is not None and pulse is not None:
+                limits[name] = next_light(pulse, state.time, longest, self.longest_pause)
             if longest is not None and state.lit_until > 0.0:
                 dark = state.time - state.lit_until
                 limits["cooling"] = max(longest, time.cooling * dark)

@@ -38,6 +38,7 @@ other limits bind before."""
 class TwoTemperatures(Conduction):
     """Solver of a run with electrons and lattice."""
 
+    longest_pause = FEMTOSECOND_PAUSE
     body: ElectronBody
     state: ElectronState
 
@@ -70,10 +71,7 @@ class TwoTemperatures(Conduction):
         first = FIRST_SHARE * 100.0 * laser.pulse.resolution
         is_lit = laser.pulse.active(state.time, state.time + first)
         if not state.has_two and not is_lit:
-            # one temperature: pauses are longer than the pulse by more than it expects
-            limits, name = super().time_step_limits(), name_of_longest(True)
-            longest = time.step or 0.5 * laser.pulse.resolution
-            return limits | {name: next_light(laser.pulse, state.time, longest, FEMTOSECOND_PAUSE)}
+            return super().time_step_limits()
 
         # two temperatures: light is not jumped over, and the error of the last step bounds the next
         limits = common_limits(time, state.time, laser.pulse)

@@ -128,7 +128,7 @@ class RingPool(MeltPool):
         """Where the flow has ended, conduct between the final places; those of a lattice stay."""
         if self.domain.surface.moves:
             super()._update_resting_pairs()
-        self._has_moved = False
+        self.has_moved = False
 
     def _restore_numbers(self, numbers: Mapping[str, float]) -> None:
         super()._restore_numbers(numbers)

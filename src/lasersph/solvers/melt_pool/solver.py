@@ -46,6 +46,7 @@ class MeltPool:
     Attributes:
         heat: the solver of enthalpies. flow: velocity and pressure. domain: faces, surface, blocks.
         position: (d, n) of all particles [m]. kinds: of the particles. fluid_count: how many do.
+        has_moved: whether anything flowed in the last step.
         spacing_min: smallest distance of two particles of the block [m].
         exchange: of a box with its faces.
     """
@@ -93,7 +94,7 @@ class MeltPool:
         self.surface_columns.keep(beside, heat.body.area)
         self.spacing_min = domain.spacing
         self.fluid_count = 0.0
-        self._has_moved = False
+        self.has_moved = False
         self._numbers: dict[str, float] = {}
         self.domain.surface.find(self.position)
 
@@ -131,7 +132,7 @@ class MeltPool:
             "largest_speed": self.flow.largest_speed,
             "largest_acceleration": self.flow.largest_acceleration,
             "block_layers": self.domain.block_layers,
-            "has_moved": float(self._has_moved),
+            "has_moved": float(self.has_moved),
             "spacing_min": self.spacing_min,
             **self.layout_renewal.checkpoint_scalars(),
             "divergence_rms": self.flow.divergence[0],
@@ -207,7 +208,7 @@ class MeltPool:
             self.illuminate(step)
             self.heat.conduct(step, unclipped_step)
             return
-        self._has_moved = True
+        self.has_moved = True
         self.flow.stop_solid(self.kinds)  # what has frozen since the last step
         # x* and the operators there (67)
         self.advect(step)
@@ -329,13 +330,13 @@ class MeltPool:
 
     def _update_resting_pairs(self) -> None:
         """Where the flow has ended, conduct between the final positions from now on."""
-        if not self._has_moved:
+        if not self.has_moved:
             return
         block = self.domain.block_for(self.position, self.kinds)
         block.find_pairs(self.position, self._rows_to_find(block, self.position))
         self.pairs.update(block)
         self.kinds.remember()
-        self._has_moved = False
+        self.has_moved = False
 
     def _rows_to_find(self, block: Block, position: Array) -> Array | None:
         """(count,) 1 for rows whose neighbors move now, or have just come to rest; None for all."""
@@ -382,7 +383,7 @@ class MeltPool:
         flow.largest_acceleration = numbers["largest_acceleration"]
         flow.divergence = (numbers["divergence_rms"], numbers["divergence_max"])
         self.domain.block_layers = int(numbers["block_layers"])
-        self._has_moved = bool(numbers["has_moved"])
+        self.has_moved = bool(numbers["has_moved"])
         self.spacing_min = numbers["spacing_min"]
         self.layout_renewal.restore(numbers)
         self.steadiness.restore(numbers)

@@ -73,29 +73,13 @@ def _between_walls(study: Study, plan: SimpleNamespace) -> None:
 def _vortices(study: Study, plan: SimpleNamespace) -> list[Panel]:
     """Energy over that of the start at each Reynolds number, which is 1/nu; a panel of each."""
     panels = []
-    table, side = read_table(TABLES / "vortices.csv"), 2.0 * np.pi
-    # an eighth of a period of 2 pi, whose faces are planes of symmetry
-    faces = [f"solver.flow.{face}=symmetry" for face in SIDES]
+    table = read_table(TABLES / "vortices.csv")
     for reynolds in plan.reynolds:
         own = table["Re"] == reynolds
         curves = [exact(table["t"][own], table["E_over_E0"][own])]
         for number, count in enumerate(plan.particles):
-            one = study.run(
-                f"vortices-{reynolds}-{count}",
-                *(
-                    "domain.extent=quarter",
-                    f"domain.width={side!r} m",
-                    f"domain.breadth={side!r} m",
-                ),
-                *(f"domain.depth={0.5 * side!r} m", f"particles.spacing={side / count!r} m"),
-                *("solver.flow.sides=", *faces, "solver.steady="),
-                *("solver.flow.initial.kind=taylor-green", "solver.flow.initial.speed=1 m/s"),
-                f"solver.flow.initial.period={side!r} m",
-                f"material.kinematic_viscosity={1.0 / reynolds!r} m^2/s",
-                f"solver.shifting={plan.shifting}",
-                f"time.end={plan.times[-1]!r} s",
-                f"output.snapshots.interval={plan.times[-1]!r} s",
-            )
+            settings = vortices_of(reynolds, count, plan.shifting, plan.times[-1])
+            one = study.run(f"vortices-{reynolds}-{count}", *settings)
             judge = count == plan.particles[-1]
             for t in plan.times:
                 words = {"Re": reynolds, "count": count, "t": t}
@@ -106,6 +90,22 @@ def _vortices(study: Study, plan: SimpleNamespace) -> list[Panel]:
             curves.append(marks(times, shares, f"{count} a period", number))
         panels.append(Panel("time [s]", "energy over the first", curves, f"Re {reynolds}"))
     return panels
+
+
+def vortices_of(reynolds: int, count: int, shifting: float, end: float) -> tuple[str, ...]:
+    """Settings of an eighth of a period of 2 pi, whose faces are planes of symmetry, with `count`
+    particles a period, up to `end` [s]."""
+    side = 2.0 * np.pi
+    return (
+        *("domain.extent=quarter", f"domain.width={side!r} m", f"domain.breadth={side!r} m"),
+        *(f"domain.depth={0.5 * side!r} m", f"particles.spacing={side / count!r} m"),
+        *("solver.flow.sides=", *(f"solver.flow.{face}=symmetry" for face in SIDES)),
+        *("solver.flow.initial.kind=taylor-green", "solver.flow.initial.speed=1 m/s"),
+        *(f"solver.flow.initial.period={side!r} m", "solver.steady="),
+        f"material.kinematic_viscosity={1.0 / reynolds!r} m^2/s",
+        *(f"solver.shifting={shifting}", f"time.end={end!r} s"),
+        f"output.snapshots.interval={end!r} s",
+    )
 
 
 def energy_share(one: Run, time: float) -> float:

@@ -28,7 +28,7 @@ def flow_view(case: Case, solver: MeltPool, fetch: Callable[[Array], np.ndarray]
     pressure = fetch(flow.pressure)
     temperature = gradient = speed = np.zeros(0)
     # melt that electrons hotter than it hold: the surface of the last flow is no longer its own
-    rests = has_two_temperatures(case.solver) and not solver.checkpoint_scalars()["has_moved"]
+    rests = has_two_temperatures(case.solver) and not solver.has_moved
 
     # Surface particles from left to right, with the temperature of their centers.
     found = np.asarray(backend.host_view(backend.rows_where(free.at_surface, 1.0)), np.int64)
