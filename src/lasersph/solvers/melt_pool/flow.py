@@ -7,6 +7,7 @@ those that the surface brings, and so is the time at which viscosity acts; see a
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from math import isfinite
 
 import numpy as np
@@ -89,6 +90,21 @@ class Flow:
         """Start from velocities, host array (d, n) [m/s]."""
         self.backend.copy(self.backend.asarray(velocity), self.velocity)
         self.largest_speed = float(np.sqrt(np.max(np.sum(velocity * velocity, axis=0))))
+
+    def checkpoint_scalars(self) -> dict[str, float]:
+        """Numbers that survive a step."""
+        return {
+            "largest_speed": self.largest_speed,
+            "largest_acceleration": self.largest_acceleration,
+            "divergence_rms": self.divergence[0],
+            "divergence_max": self.divergence[1],
+        }
+
+    def restore(self, numbers: Mapping[str, float]) -> None:
+        """Continue from the numbers of `checkpoint_scalars`."""
+        self.largest_speed = numbers["largest_speed"]
+        self.largest_acceleration = numbers["largest_acceleration"]
+        self.divergence = (numbers["divergence_rms"], numbers["divergence_max"])
 
     def set_block(self, block: Block) -> None:
         """Work on a block from now on."""

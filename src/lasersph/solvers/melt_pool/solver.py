@@ -95,8 +95,13 @@ class MeltPool:
         self.spacing_min = domain.spacing
         self.fluid_count = 0.0
         self.has_moved = False
+        # what has numbers of its own that survive a step
+        self._parts_with_numbers = (
+            *(flow, domain.surface, self.exchange),
+            *(self.layout_renewal, self.steadiness),
+        )
         self._numbers: dict[str, float] = {}
-        self.domain.surface.find(self.position)
+        domain.surface.find(self.position)
 
     @property
     def state(self) -> HeatState:
@@ -125,19 +130,14 @@ class MeltPool:
 
     def checkpoint_scalars(self) -> dict[str, float]:
         """Numbers beside the fields that survive a step."""
-        numbers = self.heat.checkpoint_scalars() | self.steadiness.checkpoint_scalars()
-        numbers |= self.domain.surface.checkpoint_scalars()
-        numbers |= self.exchange.checkpoint_scalars()
-        return numbers | {
-            "largest_speed": self.flow.largest_speed,
-            "largest_acceleration": self.flow.largest_acceleration,
+        numbers = {
             "block_layers": self.domain.block_layers,
             "has_moved": float(self.has_moved),
             "spacing_min": self.spacing_min,
-            **self.layout_renewal.checkpoint_scalars(),
-            "divergence_rms": self.flow.divergence[0],
-            "divergence_max": self.flow.divergence[1],
         }
+        for part in (self.heat, *self._parts_with_numbers):
+            numbers |= part.checkpoint_scalars()
+        return numbers
 
     def restore(self, arrays: Mapping[str, np.ndarray], numbers: Mapping[str, float]) -> None:
         """Continue from the arrays of `fields` and the numbers of `checkpoint_scalars`."""
@@ -378,17 +378,11 @@ class MeltPool:
         self._restore_numbers(self._numbers)
 
     def _restore_numbers(self, numbers: Mapping[str, float]) -> None:
-        flow = self.flow
-        flow.largest_speed = numbers["largest_speed"]
-        flow.largest_acceleration = numbers["largest_acceleration"]
-        flow.divergence = (numbers["divergence_rms"], numbers["divergence_max"])
         self.domain.block_layers = int(numbers["block_layers"])
         self.has_moved = bool(numbers["has_moved"])
         self.spacing_min = numbers["spacing_min"]
-        self.layout_renewal.restore(numbers)
-        self.steadiness.restore(numbers)
-        self.exchange.restore(numbers)
-        self.domain.surface.restore(numbers)
+        for part in self._parts_with_numbers:
+            part.restore(numbers)
         self.domain.surface.find(self.position)
         self._find_fluid()
 
