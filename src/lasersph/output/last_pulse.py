@@ -79,9 +79,13 @@ class SnapshotsOfPulse(Snapshots):
 
     @cached_property
     def _chosen(self) -> np.ndarray:
-        """Numbers of the steps in the file."""
+        """Numbers of the steps in the file, shape (steps,)."""
         times = Snapshots(self.path).times
         return np.flatnonzero(is_in_pulse(times, self.start, self.end))
+
+    def _numbers(self) -> list[int]:
+        """Numbers of the steps in the file, as of `Snapshots`."""
+        return self._chosen.tolist()
 
     @cached_property
     def times(self) -> np.ndarray:

@@ -289,6 +289,15 @@ class Snapshots:
     def __getitem__(self, number: int) -> dict[str, Any]:
         return self._read(lambda file: read_step(file, number))
 
+    def series(self, name: str) -> list[np.ndarray]:
+        """One field, or `position`, of every step, as in the steps; the file is opened once."""
+        numbers = self._numbers()
+        return self._read(lambda file: read_series(file, numbers, name))
+
+    def _numbers(self) -> list[int]:
+        """Numbers of the steps in the file."""
+        return list(range(len(self)))
+
 
 def read_step(file: Any, number: int) -> dict[str, Any]:
     """One step of an open file. Raises IndexError where the file does not hold it (any longer)."""
@@ -303,14 +312,32 @@ def read_step(file: Any, number: int) -> dict[str, Any]:
     # Number of points, and where positions and fields of this step begin.
     count = int(root["NumberOfPoints"][int(steps["PartOffsets"][number])])
     start = int(steps["PointOffsets"][number])
-    points = root["Points"][start : start + count]
-    time = float(steps["Values"][number])
-    step = {"time": time, "position": from_three_axes(points, axes)}
+    position = read_block(root["Points"], start, count, axes)
+    step = {"time": float(steps["Values"][number]), "position": position}
+    offsets = steps["PointDataOffsets"]
     for name, dataset in root["PointData"].items():
-        start = int(steps["PointDataOffsets"][name][number])
-        block = dataset[start : start + count]
-        step[name] = block if block.ndim == 1 else from_three_axes(block, axes)
+        step[name] = read_block(dataset, int(offsets[name][number]), count, axes)
     return step
+
+
+def read_series(file: Any, numbers: list[int], name: str) -> list[np.ndarray]:
+    """A field, or `position`, of steps of an open file. Raises KeyError where there is none."""
+    axes = AXES[int(file.attrs["dimension"])]
+    root = file["VTKHDF"]
+    steps = root["Steps"]
+    counts = root["NumberOfPoints"][:][steps["PartOffsets"][:]]
+    # Each look into the file takes as long as a small read: once for all steps.
+    if name == "position":
+        data, starts = root["Points"], steps["PointOffsets"][:]
+    else:
+        data, starts = root["PointData"][name], steps["PointDataOffsets"][name][:]
+    return [read_block(data, int(starts[k]), int(counts[k]), axes) for k in numbers]
+
+
+def read_block(data: Any, start: int, count: int, axes: tuple[int, ...]) -> np.ndarray:
+    """Values of so many points from a place on, (n,) or (dim, n)."""
+    block = data[start : start + count]
+    return block if block.ndim == 1 else from_three_axes(block, axes)
 
 
 def from_three_axes(block: np.ndarray, axes: tuple[int, ...]) -> np.ndarray:

@@ -22,6 +22,7 @@ References: [Knight1979] AIAA J. 17, 519; [Anisimov1968] Sov. Phys. JETP 27, 182
 
 from __future__ import annotations
 
+from functools import cache
 from math import erfc, exp, sqrt
 from typing import NamedTuple
 
@@ -75,7 +76,15 @@ def vapor_behind(mach: float) -> Vapor:
 
 
 def outflow_tables() -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-    """Nodes p_e / p_sat, rising from 0 to 1; the flux over Hertz-Knudsen and M there (k,)."""
+    """Nodes p_e / p_sat, rising from 0 to 1; the flux over Hertz-Knudsen and M there (k,).
+
+    The arrays are made once, and cannot be written.
+    """
+    return _tables()
+
+
+@cache
+def _tables() -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
     # from the sonic outflow into vacuum to the end of evaporation
     mach = np.linspace(1.0, 0.0, NODES)
     vapor = [vapor_behind(float(M)) for M in mach]
@@ -83,7 +92,10 @@ def outflow_tables() -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[
     flux = np.array([one.flux for one in vapor]) * (NET_EVAPORATION / vapor[0].flux)
     flux[0] = NET_EVAPORATION
     ratio = np.array([one.pressure for one in vapor])
-    return np.append(0.0, ratio), np.append(NET_EVAPORATION, flux), np.append(1.0, mach)
+    tables = np.append(0.0, ratio), np.append(NET_EVAPORATION, flux), np.append(1.0, mach)
+    for table in tables:
+        table.flags.writeable = False
+    return tables
 
 
 def net_mass_flux(T, p, p_slope, R_s, p_e, ratio_nodes, flux_nodes):

@@ -29,9 +29,9 @@ SECTION = 1.6
 
 def lines_of(run: Run) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Times (t,) [s], places (columns,) and heights (t, columns) [m]; half a period is mirrored."""
-    steps = list(run.surface)
-    x = np.array(steps[0]["position"][0])
-    height = np.array([step["position"][1] for step in steps])
+    places = run.surface.series("position")
+    x = np.array(places[0][0])
+    height = np.array([place[1] for place in places])
     # The mirror image comes first, so that x grows.
     if run.symmetry_factor == 2:
         x, height = np.concatenate([-x[::-1], x]), np.hstack([height[:, ::-1], height])
@@ -120,13 +120,13 @@ def final_relief(run: RunOrFolder) -> Figure | None:
         return None
 
     # particles are laid out anew in a pause: what lies where since then
-    steps = list(last_pulse(run).snapshots)
-    last = steps[-1]
-    if any(step["melt_fraction"].size != last["melt_fraction"].size for step in steps):
+    snapshots = last_pulse(run).snapshots
+    fractions = snapshots.series("melt_fraction")
+    if any(fraction.size != fractions[-1].size for fraction in fractions):
         return None
 
     # How far each particle has ever been molten, over the last pulse.
-    molten = np.max([step["melt_fraction"] for step in steps], axis=0)
+    molten, last = np.max(fractions, axis=0), snapshots[-1]
     _, x, height = lines_of(run)
 
     # Down to somewhat below the deepest melt.

@@ -5,7 +5,7 @@ import pytest
 import synthetic_run
 
 from lasersph.output import open_run
-from lasersph.output.last_pulse import last_pulse, starts_after_pauses
+from lasersph.output.last_pulse import PulseOfRun, last_pulse, starts_after_pauses
 from lasersph.output.pulse_starts import starts_of_pulses
 from lasersph.plots.pulses import pulses_compared, pulses_of
 
@@ -59,3 +59,16 @@ def test_pulses_of_a_case_that_begin_within_it(pulse, starts):
     time = {"end": 2.0002e-3}
     assert starts_of_pulses({"laser": {"pulse": pulse}, "time": time}) == pytest.approx(starts)
     assert starts_of_pulses({"laser": None, "time": time}) == []
+
+
+def test_a_series_is_the_field_of_each_step(run):
+    """Positions and fields of all steps from one opening of the file, as in the steps; of a pulse
+    those of its steps."""
+    found = PulseOfRun(run, float(run.snapshots.times[3]))
+    for steps in (run.snapshots, found.snapshots):
+        for name in ("position", "temperature"):
+            series = steps.series(name)
+            assert len(series) == len(steps)
+            assert all(np.array_equal(a, step[name]) for a, step in zip(series, steps, strict=True))
+    with pytest.raises(KeyError):
+        run.snapshots.series("hardness")

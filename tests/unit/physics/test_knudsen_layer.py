@@ -135,3 +135,10 @@ def test_compiled_functions_give_what_python_gives():
     plain = [evaporation_loss(t, **given, ratio_nodes=RATIO, flux_nodes=FLUX) for t in T]
     for found, expected in zip(out, np.array(plain).T, strict=True):
         np.testing.assert_allclose(backend.to_host(found), expected, rtol=1e-12)
+
+
+def test_tables_are_made_once_and_cannot_be_written():
+    """A run looks at the recoil in each step."""
+    assert all(a is b for a, b in zip(outflow_tables(), outflow_tables(), strict=True))
+    with pytest.raises(ValueError, match="read-only"):
+        RATIO[0] = 1.0
