@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from lasersph.compute.graph import graph
 from lasersph.physics.two_temperature import relative_difference
 from lasersph.solvers.conduction.electron_body import ElectronBody, ElectronState
 from lasersph.solvers.conduction.electron_step import ElectronStep
@@ -114,15 +115,22 @@ class TwoTemperatures(Conduction):
 
     def update_temperature(self) -> tuple[float]:
         """Temperatures and fractions; returns the largest change of the lattice's [K]."""
-        self.body.update_temperature()
+        if not self.state.has_two:
+            self.state.difference = 0.0
+            return super().update_temperature()
+        change, self.state.difference = self.update_both()
+        return (change,)
+
+    @graph
+    def update_both(self) -> None:
+        """Both temperatures; reduces the largest change of the lattice's [K] and the largest
+        |T_e - T_l| / T_l."""
+        self.body.update_both()
         particles, backend = self.particles, self.backend
         fields = {"T": particles["temperature"], "T_old": self._before}
-        (change,) = backend.pointwise(temperature_change, fields, (None,), reduce=("max",))
+        backend.pointwise(temperature_change, fields, (None,), reduce=("max",))
         fields = {"T_e": particles["electron_temperature"], "T_l": particles["temperature"]}
-        (self.state.difference,) = backend.pointwise(
-            relative_difference, fields, (None,), reduce=("max",)
-        )
-        return (change,)
+        backend.pointwise(relative_difference, fields, (None,), reduce=("max",))
 
     def _become_one(self) -> None:
         """Go on with one temperature, from the enthalpy of electrons and lattice together."""
