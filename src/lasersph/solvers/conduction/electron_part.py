@@ -83,22 +83,16 @@ class ElectronPart:
         light.shine(start, end)
         absorbed = light.absorb(v["T_l"])
         lost, removed = self.exchange.evaluate(v["T_l"])
-        power, walls = self.exchange.power, 0.0
+        power = self.exchange.power
 
         # electrons: T_e and what each particle takes; then what the lattice gains from them
         size, _ = self.find_S(light.deposit, s)
-        if size > 0.0:
-            self._solve(self.electrons, v["S"], v["C"], v["ones"], s, size)
-            _, walls, size, from_faces = self.correct(light.deposit, power, mass, s)
-        else:
-            size, from_faces = self.give(power, mass, s)
-
+        self._solve(self.electrons, v["S"], v["C"], v["ones"], s, size)
+        _, walls, size, from_faces = self.correct(light.deposit, power, mass, s)
         # lattice: its potential, and what each particle takes
-        if self.lattice is not None and size > 0.0:
+        if self.lattice is not None:
             self._solve(self.lattice, v["taken"], v["D"], v["mask"], s, size)
             _, from_faces = self.settle(power, mass, s)
-        elif self.lattice is not None:
-            self._take(mass)
         lit = energies(light, absorbed)
         names = ("incident", "reflected", "transmitted", "absorbed")
         return {name: lit[name] for name in names} | {
@@ -164,23 +158,20 @@ class ElectronPart:
 
     @graph
     def correct(self, deposit: Array, power: Array, mass: Array, s: float) -> None:
-        """T_e with the solution added, and S there; reduces as `find_S`, then as `give`."""
-        v = self.v
-        self.backend.pointwise(terms.add, {"x": v["T"], "y": self.electrons.solution}, v["T"])
-        self.find_S(deposit, s)
-        self.give(power, mass, s)
-
-    @graph
-    def give(self, power: Array, mass: Array, s: float) -> None:
-        """Energy of the electrons, and what the lattice takes at the potential before the step;
-        reduces the sum of sizes of that and the heat from faces [J].
+        """T_e with the solution added, and S there; energy of the electrons, and what the lattice
+        takes at the potential before the part; reduces as `find_S`, then the sum of sizes of what
+        is taken and the heat from faces [J].
 
         Args:
             power: (n,) lost by the surface [W]. mass: (n,) [kg].
         """
         v, backend, both = self.v, self.backend, {"e": self.e, "m": mass}
+        backend.pointwise(terms.add, {"x": v["T"], "y": self.electrons.solution}, v["T"])
+        self.find_S(deposit, s)
+        # e, and the energy Q + r (1 - f) S that the lattice gains
         fields = both | {"S": v["S"], "Q": v["Q"], "share": v["share"]}
         backend.pointwise(terms.give, fields, (self.new_e, v["gained"]))
+        # row of the lattice
         fields, out = both | {"h": self.h}, (v["D"], v["mask"], v["P"])
         backend.pointwise(terms.lattice_row, fields, out, **self.potential)
         self._find_taken(power, s)
@@ -190,7 +181,7 @@ class ElectronPart:
     @graph
     def settle(self, power: Array, mass: Array, s: float) -> None:
         """Potential of the lattice with the solution added, and energies with what it takes there;
-        reduces as `give`."""
+        reduces the sum of sizes of that and the heat from faces [J]."""
         v, lattice = self.v, self.lattice
         assert lattice is not None
         self.backend.pointwise(terms.add, {"x": v["P"], "y": lattice.solution}, v["P"])
@@ -222,5 +213,8 @@ class ElectronPart:
         self, solver: ConjugateGradient, b: Array, C: Array, mask: Array, s: float, size: float
     ) -> None:
         """Solve a matrix of the part for the energies b, whose sizes sum to `size`."""
+        if size == 0.0:
+            self.backend.fill(solver.solution, 0.0)
+            return
         limits = {"residual": LINEAR * size, "max_iterations": MAX_LINEAR}
         self.linear += solver.solve(b, C, mask, s, **limits)

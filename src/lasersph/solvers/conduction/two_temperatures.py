@@ -87,6 +87,23 @@ class TwoTemperatures(Conduction):
             limits["error"] = state.allowed_step
         return limits
 
+    def attempt(self, step: float, unclipped_step: float | None = None) -> None:
+        """As `Conduction.attempt`; with two temperatures each part of the step has its own light.
+
+        Raises:
+            NotConverged: the step is too large; the state is as before.
+        """
+        if self._splits(step):
+            self.conduct(step, unclipped_step)
+        else:
+            super().attempt(step, unclipped_step)
+
+    def _splits(self, step: float) -> bool:
+        """Whether a step [s] has two temperatures: the last one had, or light comes."""
+        state, pulse = self.state, None if self.laser is None else self.laser.pulse
+        is_lit = pulse is not None and pulse.active(state.time, state.time + step)
+        return bool(state.has_two) or is_lit
+
     def conduct(self, step: float, unclipped_step: float | None = None) -> None:
         """Advance by `step` [s]: with two temperatures from the first light on until both are one.
 
@@ -94,9 +111,7 @@ class TwoTemperatures(Conduction):
             NotConverged: the step is too large; the state is as before.
         """
         state, pulse = self.state, None if self.laser is None else self.laser.pulse
-        lit = pulse is not None and pulse.active(state.time, state.time + step)
-        had_two = state.has_two
-        state.has_two = float(bool(state.has_two) or lit)
+        had_two, state.has_two = state.has_two, float(self._splits(step))
         scheme: Any = self.two if state.has_two else self.one
         self.scheme = scheme
         try:
