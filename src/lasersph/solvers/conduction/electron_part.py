@@ -176,7 +176,7 @@ class ElectronPart:
         backend.pointwise(terms.lattice_row, fields, out, **self.potential)
         self._find_taken(power, s)
         if self.lattice is None:
-            self._take(mass)
+            self._accept(mass)
 
     @graph
     def settle(self, power: Array, mass: Array, s: float) -> None:
@@ -186,7 +186,7 @@ class ElectronPart:
         assert lattice is not None
         self.backend.pointwise(terms.add, {"x": v["P"], "y": lattice.solution}, v["P"])
         self._find_taken(power, s)
-        self._take(mass)
+        self._accept(mass)
 
     def _find_taken(self, power: Array, s: float) -> None:
         """Energy taken at the potentials P; reduces the sum of sizes and the heat from faces."""
@@ -203,7 +203,7 @@ class ElectronPart:
             s=s,
         )
 
-    def _take(self, mass: Array) -> None:
+    def _accept(self, mass: Array) -> None:
         """Set e and h to those after the part."""
         fields = {"h": self.h, "e": self.e, "new_e": self.new_e, "taken": self.v["taken"]}
         fields |= {"m": mass}
