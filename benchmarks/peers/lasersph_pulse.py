@@ -17,7 +17,7 @@ from lasersph.simulation.recipes import recipe_of
 from lasersph.solvers.step_control import choose_step
 
 SIZES = (
-    {"spacing": "50 nm", "ratio": "0.8", "step_error": "0.1"},
+    {"spacing": "40 nm", "ratio": "0.8", "step_error": "0.1"},
     {"spacing": "25 nm", "ratio": "0.8", "step_error": "0.05"},
     {"spacing": "12 nm", "ratio": "0.85", "step_error": "0.02"},
     {"spacing": "6 nm", "ratio": "0.9", "step_error": "0.005"},
@@ -88,7 +88,7 @@ def answer(case: Case, pulse: Pulse) -> Answer:
     count = solver.body.count
     for time in pulse.times:
         while solver.state.time < time * (1.0 - 1e-12):
-            limits = solver.time_step_limits() | {"time": time - solver.state.time}
+            limits = solver.time_step_limits() | {"snapshot": time - solver.state.time}
             _, step, unclipped = choose_step(limits)
             solver.step(step, unclipped)
         for rows, name in zip(found, ("electron_temperature", "temperature"), strict=True):

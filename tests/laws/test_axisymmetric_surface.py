@@ -68,18 +68,18 @@ def test_film_below_a_bump_of_temperature():
 
 
 class WarmRing:
-    """100 K more at a distance from the axis, 1 um wide."""
+    """Some kelvin more at a distance from the axis, 1 um wide."""
 
-    def __init__(self, at):
-        self.at = at
+    def __init__(self, at, more):
+        self.at, self.more = at, more
 
     def mean_over(self, places, begin, end):
         """What the surface has more at places along x [K]."""
         (x,) = places
-        return 100.0 * np.exp(-(((x - self.at) / 1e-6) ** 2))
+        return self.more * np.exp(-(((x - self.at) / 1e-6) ** 2))
 
 
-def ring_film(geometry, width, at):
+def ring_film(geometry, width, at, more):
     """Heights of five rows of steel 20 ns after a ring, or a line, has become warm."""
     solver = box(
         {**STEEL, "surface_tension_slope": -4.3e-4},
@@ -91,21 +91,23 @@ def ring_film(geometry, width, at):
         time={"end": 2e-8, "step": 5e-10},
     )
     surface = solver.domain.surface
-    given = replace(surface.forcing, temperature=ImposedTemperature(2000.0, WarmRing(at)))
+    given = replace(surface.forcing, temperature=ImposedTemperature(2000.0, WarmRing(at, more)))
     surface.forcing = surface.stress_law.forcing = given
     go(solver, 2e-8)
     return surface.line.height
 
 
-def test_far_from_the_axis_a_ring_is_a_line():
-    """40 widths out: the same heights within 0.5 %, in the mean of both sides. 0.3 % came out,
-    which 80 widths do not change: the melt passes between particles here, and moves them there."""
+@pytest.mark.parametrize(("more", "band"), [(1.0, 1e-3), (100.0, 5e-3)])
+def test_far_from_the_axis_a_ring_is_a_line(more, band):
+    """40 widths out: the same heights within 0.1 %, as the mean of both sides, under 1 K; 0.03 %
+    came out. Under 100 K it is 0.3 %: both agree in what is odd in the drive, to 0.01 %, and
+    not in what grows as its square, 0.8 % of the height here and 0.5 there, whatever the rows."""
     columns, out = 100, 714
-    line = ring_film("planar", columns * 5.6e-8, 0.0)
-    ring = ring_film("axisymmetric", (out + columns // 2) * 5.6e-8, out * 5.6e-8)[-columns:]
+    line = ring_film("planar", columns * 5.6e-8, 0.0, more)
+    ring = ring_film("axisymmetric", (out + columns // 2) * 5.6e-8, out * 5.6e-8, more)[-columns:]
     mean, wanted = (0.5 * (heights + heights[::-1]) for heights in (ring, line))
     near = slice(columns // 2 - 40, columns // 2 + 40)
-    assert mean[near] == pytest.approx(wanted[near], abs=5e-3 * np.abs(wanted).max())
+    assert mean[near] == pytest.approx(wanted[near], abs=band * np.abs(wanted).max())
 
 
 def test_free_bump():

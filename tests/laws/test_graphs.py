@@ -75,6 +75,14 @@ def moving_spot(backend):
     return found_by(spot_pool(half_ball, backend=backend, material=metal, solver=solver)[1])
 
 
+def short_pulse(backend):
+    """Electrons and lattice of gold that melts, around the peak of a pulse of 150 fs."""
+    _, solver = solver_of("short-pulse-gold", "laser.fluence=0.2 J/cm^2", backend=backend)
+    go(solver, 40)
+    assert solver.state.has_two
+    return found_by(solver)
+
+
 def heated_cube(backend):
     """A box in three dimensions with a warm and a cold wall."""
     settings = ("particles.spacing=0.125 m", "time.end=1 s", "time.step=0.1 s")
@@ -96,7 +104,8 @@ def stiff_heat(backend):
 
 
 SPOTS = (spot_in_section, moving_spot)
-CASES = (heated_box, heated_cube, flat_pool, lit_pool, moving_pool, lit_steel, *SPOTS, stiff_heat)
+CASES = (heated_box, heated_cube, flat_pool, lit_pool, moving_pool, lit_steel, short_pulse)
+CASES += (*SPOTS, stiff_heat)
 
 
 @pytest.fixture(scope="module")

@@ -38,6 +38,8 @@ from lasersph.compute.recording import Number, Recorder, Recording
 P = ParamSpec("P")
 GRAPHS: dict[str, LoopGraph] = {}
 """All graphs by the names of their methods."""
+NOTHING = LoopStep([], [])
+"""Step that launches no loop."""
 
 
 class LoopGraph:
@@ -179,7 +181,7 @@ def step_of(given: Any) -> LoopStep | CalledStep:
     """A step of an iteration: of a graph of an owner, with arguments by `partial`, of another
     function of one number, or of None."""
     if given is None:
-        return LoopStep([], [])
+        return NOTHING
     # arguments given by `partial`, and the graph behind the method
     bound = given.func if isinstance(given, partial) else given
     one: LoopGraph | None = getattr(bound, "graph", None)

@@ -109,6 +109,11 @@ def sweep(number, blocks, size, count, partial, start, column, value, inner, {na
 '''
 
 
+_WRITTEN: dict[tuple, tuple[SourceUnit, str]] = {}
+"""Texts by what they were written from, with what they have read: solvers that follow each other
+ask for the same few."""
+
+
 def sweep_text(
     function: Callable,
     roles: dict[str, str],
@@ -124,8 +129,27 @@ def sweep_text(
         reduces: how many of the results, the last ones, are summed over the rows instead of stored.
         outputs: how many results are stored; the first is what neighbors read.
     """
+    key = (function, tuple(roles.items()), reduces, outputs, backward)
+    unit, text = _WRITTEN.get(key, (None, ""))
+    # written anew where a name in the function means something else now
+    if unit is None or not unit.is_current():
+        unit = SourceUnit()
+        text = _written(unit, function, roles, reduces, outputs, backward=backward)
+        _WRITTEN[key] = unit, text
+    return text
+
+
+def _written(
+    unit: SourceUnit,
+    function: Callable,
+    roles: dict[str, str],
+    reduces: int,
+    outputs: int,
+    *,
+    backward: bool,
+) -> str:
+    """Text of the function `sweep`, with the functions that it calls in `unit`."""
     # the function of a row, and where its arguments come from
-    unit = SourceUnit()
     name, _ = unit.add(function, (("real", ()),) * len(roles))
     fields = [f"a_{field}" for field, role in roles.items() if role == "field"]
     constants = [field for field, role in roles.items() if role == "constant"]

@@ -215,12 +215,12 @@ class GaussianPulse(PulseTrain):
             )
         return self
 
-    @property
+    @cached_property
     def sigma(self) -> float:
         """Standard deviation [s]."""
         return self.fwhm / FWHM_PER_SIGMA
 
-    @property
+    @cached_property
     def window(self) -> tuple[float, float]:
         """Center -+ 5 sigma [s]; not before 0."""
         return max(0.0, self.center - 5.0 * self.sigma), self.center + 5.0 * self.sigma

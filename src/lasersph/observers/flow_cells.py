@@ -15,6 +15,8 @@ where its surface rises, and no line of psi closes: it has no cells here.
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 
 from lasersph.observers.flow_speed import flow_of
@@ -59,46 +61,75 @@ class FlowCells(Observer):
     def observe(self, view: View) -> Row:
         """Turnover [m^3/s] and height [m] of both cells; 0 where one does not exist."""
         values = (0.0,) * len(self.columns)
-        if np.any(flow_of(view).flows):
-            psi, height = self._stream_function(view)
-            found = [largest_of(sign * psi, height) for sign in CELLS.values()]
-            strongest = max(turnover for turnover, _ in found)
-            # what is much weaker than the other is no cell
-            kept = [one if one[0] > SHARE * strongest else (0.0, 0.0) for one in found]
-            values = (*kept[0], *kept[1])
-        return self.record(view.time, values)
-
-    def _stream_function(self, view: View) -> tuple[np.ndarray, np.ndarray]:
-        """psi at the outer edges of the particles of each row (rows, longest) [m^3/s], 0 beyond
-        its end, and the heights of the rows (rows,) [m]."""
         flow, r = flow_of(view), view.position[0]
-        # numbers go row by row, in each outward from the axis
-        begins = np.flatnonzero(np.diff(r, prepend=np.inf) < 0.0)
-        rising = flow.velocity[-1] * view.volume / view.width[-1]
-        psi = np.cumsum(np.where(flow.flows, rising, 0.0))
-        # each row counts from its axis
-        lengths = np.diff(np.append(begins, r.size))
-        psi -= np.repeat(np.concatenate([[0.0], psi])[begins], lengths)
-        # beyond what flows psi has no meaning
-        psi = np.where(flow.flows, psi, 0.0)
-        strongest = np.array(
-            [np.maximum.reduceat(psi, begins), np.minimum.reduceat(psi, begins)], float
-        )
-        return strongest.T, view.width[-1, begins]
+        if np.any(flow.flows):
+            rising = flow.velocity[-1] * view.volume / view.width[-1]
+            psi = stream_function(r, rising, flow.flows)
+            found = cells_of(psi, r, view.width[-1])
+            values = tuple(
+                value for name in CELLS for value in (found[name].turnover, found[name].height)
+            )
+        return self.record(view.time, values)
 
     def summary(self) -> dict[str, object]:
         """Nothing where nothing turned."""
         return super().summary() if any(peak.value for peak in self.peak.values()) else {}
 
 
-def largest_of(psi: np.ndarray, height: np.ndarray) -> tuple[float, float]:
-    """Largest psi [m^3/s], and height of the rows that have a tenth of it [m]; 0 where none is.
+class Cell(NamedTuple):
+    """A cell of the flow.
+
+    Attributes:
+        turnover: largest |psi| [m^3/s]. height: of the rows that have a tenth of it [m]; both 0
+            where there is no such cell. center: number of the particle with that |psi|.
+    """
+
+    turnover: float
+    height: float
+    center: int
+
+
+def stream_function(r: np.ndarray, rising: np.ndarray, flows: np.ndarray) -> np.ndarray:
+    """psi at the outer edges of particles (n,) [m^3/s], 0 where nothing flows.
 
     Args:
-        psi: (rows, values) [m^3/s], above zero in the cell. height: (rows,) of the rows [m].
+        r: (n,) [m], row by row, in each outward from the axis. rising: (n,) volume that rises in
+            the ring of each per second [m^3/s]. flows: (n,) whether it flows.
     """
-    of_row = np.max(psi, axis=1)
+    begins = _row_begins(r)
+    psi = np.cumsum(np.where(flows, rising, 0.0))
+    # each row counts from its axis
+    lengths = np.diff(np.append(begins, r.size))
+    psi -= np.repeat(np.concatenate([[0.0], psi])[begins], lengths)
+    # beyond what flows psi has no meaning
+    return np.where(flows, psi, 0.0)
+
+
+def cells_of(psi: np.ndarray, r: np.ndarray, height: np.ndarray) -> dict[str, Cell]:
+    """The cells by their names.
+
+    Args:
+        psi: (n,), see `stream_function`. r: (n,) [m]. height: (n,) of the particles [m].
+    """
+    found = {name: _largest(sign * psi, r, height) for name, sign in CELLS.items()}
+    strongest = max(one.turnover for one in found.values())
+    # what is much weaker than the other is no cell
+    return {
+        name: one if one.turnover > SHARE * strongest else Cell(0.0, 0.0, one.center)
+        for name, one in found.items()
+    }
+
+
+def _row_begins(r: np.ndarray) -> np.ndarray:
+    """Numbers of the first particles of the rows."""
+    return np.flatnonzero(np.diff(r, prepend=np.inf) < 0.0)
+
+
+def _largest(psi: np.ndarray, r: np.ndarray, height: np.ndarray) -> Cell:
+    """The cell in which psi is above zero."""
+    begins = _row_begins(r)
+    of_row, center = np.maximum.reduceat(psi, begins), int(np.argmax(psi))
     largest = float(np.max(of_row))
     if largest <= 0.0:
-        return 0.0, 0.0
-    return largest, float(np.sum(height[of_row >= SHARE * largest]))
+        return Cell(0.0, 0.0, center)
+    return Cell(largest, float(np.sum(height[begins][of_row >= SHARE * largest])), center)

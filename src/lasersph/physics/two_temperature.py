@@ -153,9 +153,9 @@ def lattice_energy_taken(total, P, gained, q, a, b, s):
     return taken, abs(taken), walls
 
 
-def total_enthalpy(h, e, new_e, taken, m):
-    """h of electrons and lattice after the step [J/kg]."""
-    return h - e + taken / m + new_e
+def taken_energies(h, e, new_e, taken, m):
+    """h of electrons and lattice after the step, and e [J/kg]."""
+    return h - e + taken / m + new_e, new_e
 
 
 def extrapolate(e, h, e_once, h_once, c, h_nodes, T_nodes, e_nodes, Te_nodes, C_nodes):

@@ -16,6 +16,7 @@ from lasersph.plots.comparison import (
 )
 from lasersph.plots.crater_cut import crater_cut, ejecta_vectors
 from lasersph.plots.crater_view import crater_scene, crater_view
+from lasersph.plots.flow_cells import flow_cell_map
 from lasersph.plots.flow_history import (
     center_line_figure,
     extrema_history,
@@ -70,6 +71,7 @@ __all__ = [
     "energy_history",
     "extrema_history",
     "final_relief",
+    "flow_cell_map",
     "fluence_figure",
     "layer_history",
     "melt_pool_history",

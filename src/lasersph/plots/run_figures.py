@@ -15,6 +15,7 @@ from lasersph.plots.ablation_fields import has_ablation
 from lasersph.plots.ablation_history import crater_history, trace_figure
 from lasersph.plots.crater_cut import crater_cut, ejecta_vectors
 from lasersph.plots.crater_view import crater_view
+from lasersph.plots.flow_cells import flow_cell_map
 from lasersph.plots.flow_fields import is_box
 from lasersph.plots.flow_history import center_line_figure
 from lasersph.plots.flow_map import LEAST_SPREAD, box_flow_map, pool_flow_map
@@ -170,6 +171,13 @@ DRAWINGS = (
         "The melt pool when its surface was fastest: temperature; speed, with arrows whose length"
         " grows with the root of the speed; phase, with streamlines of the liquid.",
         pool_flow_map,
+    ),
+    Drawing(
+        "flow-cells",
+        "The cells in which the melt of a round spot turns, when its surface was fastest, with"
+        " streamlines: red where it flows outward at the top of the cell, blue where inward. Below:"
+        " how high they are and which volume they turn, over time.",
+        flow_cell_map,
     ),
     Drawing(
         "box-flow",

@@ -47,6 +47,7 @@ UNITS = {
     "m": LENGTHS,
     "m^2": (Unit(1e12, "µm$^2$"), Unit(1e6, "mm$^2$"), Unit(1.0, "m$^2$")),
     "m^3": (Unit(1e18, "µm$^3$"), Unit(1e9, "mm$^3$"), Unit(1.0, "m$^3$")),
+    "m^3/s": (Unit(1e12, "µm$^3$/µs"), Unit(1e9, "mm$^3$/s"), Unit(1.0, "m$^3$/s")),
     "Pa": (Unit(1.0, "Pa"), Unit(1e-3, "kPa"), Unit(1e-6, "MPa"), Unit(1e-9, "GPa")),
     "J": tuple(Unit(10.0**n, f"{name}J") for n, name in ((12, "p"), (9, "n"), (6, "µ"), (3, "m"))),
     "J/m": tuple(

@@ -127,7 +127,8 @@ class _Lattice:
         for k in range(total):
             for step in range(-GHOSTS, GHOSTS + 1):
                 other, z = self._neighbor(k, k + step)
-                if other is not None:
+                # two layers further apart than the support exchange nothing
+                if other is not None and abs(z) < self._support(k, other):
                     self._add(matrix, k, k + step, other, z)
         target = np.concatenate([np.ones(planes), np.full(total, 2.0)])
         # 1-D has no lateral pairs: factor 1
@@ -176,12 +177,11 @@ class _Lattice:
         # pairs of two inner layers are met from both sides
         counted = 0.5 if 0 <= number < self.total else 1.0
         # normal condition: g |z| of the pair counts in each plane that it crosses
-        for plane in crossed:
-            if -1 <= plane <= last:
-                flux = counted * abs(z)
-                matrix[plane + 1, :planes] += flux * along * share
-                matrix[plane + 1, planes + k] += 0.5 * flux * across
-                matrix[plane + 1, planes + other] += 0.5 * flux * across
+        rows = slice(max(low, -1) + 1, min(high, planes - 1) + 1)
+        flux = counted * abs(z)
+        matrix[rows, :planes] += flux * along * share
+        matrix[rows, planes + k] += 0.5 * flux * across
+        matrix[rows, planes + other] += 0.5 * flux * across
         # lateral condition: g x^2 over the thickness of the layer
         if self.layers.bounds:
             matrix[planes + k, :planes] += x_along / thickness * share
@@ -196,12 +196,13 @@ class _Lattice:
             self.cache[key] = self._sum(k, other, z)
         return self.cache[key]
 
-    def _sum(self, k: int, other: int, z: float) -> Array:
+    def _support(self, k: int, other: int) -> float:
+        """Support radius of a pair of two layers [m]."""
         d = self.layers.thickness
-        # two layers further apart than the support exchange nothing
-        support = self.mean(self.ratio * d[k], self.ratio * d[other])
-        if abs(z) >= support:
-            return np.zeros(4)
+        return self.mean(self.ratio * d[k], self.ratio * d[other])
+
+    def _sum(self, k: int, other: int, z: float) -> Array:
+        d, support = self.layers.thickness, self._support(k, other)
         offsets = [
             self._offsets(axis, k, other, support) for axis in range(len(self.layers.bounds))
         ]

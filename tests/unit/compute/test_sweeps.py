@@ -1,5 +1,6 @@
 """Sweeps against the same sums row by row, and the order that blocks of rows get."""
 
+import sys
 from types import SimpleNamespace
 
 import numpy as np
@@ -7,6 +8,7 @@ import pytest
 
 from lasersph import compute
 from lasersph.compute import sweeps
+from lasersph.compute.sweep_text import sweep_text
 from lasersph.compute.sweeps import Sweep, ordered_pairs
 
 
@@ -36,6 +38,16 @@ def ranks(count, block):
 def swept(total, b, s):
     """b + s sum, and the square of that."""
     v = b + s * total
+    return v, v * v
+
+
+FACTOR = 1.0
+"""What `scaled` reads beside its arguments."""
+
+
+def scaled(total, b, s):
+    """b + s FACTOR sum, and the square of that."""
+    v = b + s * FACTOR * total
     return v, v * v
 
 
@@ -114,6 +126,16 @@ def test_rows_far_from_each_other_are_not_arranged(backend):
     assert ordered_pairs(backend, *pairs_of(backend, band(count))) is not None
     shuffled = band(count)[np.ix_(order, order)]
     assert ordered_pairs(backend, *pairs_of(backend, shuffled)) is None
+
+
+def test_a_constant_that_changes_gives_another_sweep(monkeypatch):
+    """The text of a sweep is written anew where a name in its function means something else."""
+    roles = {"total": "total", "b": "field", "s": "constant"}
+    first = sweep_text(scaled, roles, 1, 1, backward=False)
+    assert sweep_text(scaled, roles, 1, 1, backward=False) is first
+    assert sweep_text(scaled, roles, 1, 1, backward=True) != first
+    monkeypatch.setattr(sys.modules[__name__], "FACTOR", 2.0)
+    assert sweep_text(scaled, roles, 1, 1, backward=False) == first.replace("1.0", "2.0")
 
 
 def test_threads_change_no_bit(monkeypatch):

@@ -61,6 +61,12 @@ class ElectronBody(Body):
             given = {"T": particles["temperature"]}
             backend.pointwise(equal_state, given, (e, T_e), **self.electron_tables)
             return
+        self.update_both()
+
+    def update_both(self) -> None:
+        """Set both temperatures, the lattice's potential and fractions, from both energies."""
+        particles, backend = self.particles, self.backend
+        e, T_e = (particles[name] for name in ELECTRONS)
         # T, P, f_m, f_v of the lattice and T_e
         out = (*(particles[name] for name in DERIVED), T_e)
         order = (out[0], out[1], out[2], out[3], out[4])

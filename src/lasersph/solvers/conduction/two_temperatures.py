@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from lasersph.compute.graph import graph
 from lasersph.physics.two_temperature import relative_difference
 from lasersph.solvers.conduction.electron_body import ElectronBody, ElectronState
 from lasersph.solvers.conduction.electron_step import ElectronStep
@@ -86,6 +87,23 @@ class TwoTemperatures(Conduction):
             limits["error"] = state.allowed_step
         return limits
 
+    def attempt(self, step: float, unclipped_step: float | None = None) -> None:
+        """As `Conduction.attempt`; with two temperatures each part of the step has its own light.
+
+        Raises:
+            NotConverged: the step is too large; the state is as before.
+        """
+        if self._splits(step):
+            self.conduct(step, unclipped_step)
+        else:
+            super().attempt(step, unclipped_step)
+
+    def _splits(self, step: float) -> bool:
+        """Whether a step [s] has two temperatures: the last one had, or light comes."""
+        state, pulse = self.state, None if self.laser is None else self.laser.pulse
+        is_lit = pulse is not None and pulse.active(state.time, state.time + step)
+        return bool(state.has_two) or is_lit
+
     def conduct(self, step: float, unclipped_step: float | None = None) -> None:
         """Advance by `step` [s]: with two temperatures from the first light on until both are one.
 
@@ -93,9 +111,7 @@ class TwoTemperatures(Conduction):
             NotConverged: the step is too large; the state is as before.
         """
         state, pulse = self.state, None if self.laser is None else self.laser.pulse
-        lit = pulse is not None and pulse.active(state.time, state.time + step)
-        had_two = state.has_two
-        state.has_two = float(bool(state.has_two) or lit)
+        had_two, state.has_two = state.has_two, float(self._splits(step))
         scheme: Any = self.two if state.has_two else self.one
         self.scheme = scheme
         try:
@@ -114,15 +130,22 @@ class TwoTemperatures(Conduction):
 
     def update_temperature(self) -> tuple[float]:
         """Temperatures and fractions; returns the largest change of the lattice's [K]."""
-        self.body.update_temperature()
+        if not self.state.has_two:
+            self.state.difference = 0.0
+            return super().update_temperature()
+        change, self.state.difference = self.update_both()
+        return (change,)
+
+    @graph
+    def update_both(self) -> None:
+        """Both temperatures; reduces the largest change of the lattice's [K] and the largest
+        |T_e - T_l| / T_l."""
+        self.body.update_both()
         particles, backend = self.particles, self.backend
         fields = {"T": particles["temperature"], "T_old": self._before}
-        (change,) = backend.pointwise(temperature_change, fields, (None,), reduce=("max",))
+        backend.pointwise(temperature_change, fields, (None,), reduce=("max",))
         fields = {"T_e": particles["electron_temperature"], "T_l": particles["temperature"]}
-        (self.state.difference,) = backend.pointwise(
-            relative_difference, fields, (None,), reduce=("max",)
-        )
-        return (change,)
+        backend.pointwise(relative_difference, fields, (None,), reduce=("max",))
 
     def _become_one(self) -> None:
         """Go on with one temperature, from the enthalpy of electrons and lattice together."""
