@@ -104,7 +104,7 @@ class BlockExchange(FaceExchange):
 
     Attributes:
         heat: into the box by face [J]. impulse: of the face on the liquid, by the face and the axis
-            along it, as `surface_x` [N s]. pressing: of the liquid on the face, outward [N s].
+            along it, as surface_x [N s]. pressing: of the liquid on the face, outward [N s].
     """
 
     def __init__(
