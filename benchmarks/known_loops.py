@@ -23,18 +23,18 @@ from lasersph.compute.launch import Launcher
 from lasersph.simulation.known_loops import FILE, kind_of_run
 
 
-class RecordedText(LoopText):
-    """Text of a loop that is remembered.
+def text_that_records(loops: list[Loop]) -> type[LoopText]:
+    """Class of texts that add their loops to a list, in the order in which they are asked for.
 
-    Attributes:
-        loops: all so far, in the order in which they were asked for.
+    Each run has its own: what a process has written for one class it writes again for the next.
     """
 
-    loops: list[Loop] = []  # noqa: RUF012 (of the class: there is one list a process)
+    class RecordedText(LoopText):
+        def __init__(self, loop: Loop) -> None:
+            super().__init__(loop)
+            loops.append(loop)
 
-    def __init__(self, loop: Loop) -> None:
-        super().__init__(loop)
-        self.loops.append(loop)
+    return RecordedText
 
 
 def runs_of(name: str) -> list[Case]:
@@ -42,20 +42,21 @@ def runs_of(name: str) -> list[Case]:
     case = load_case(name, quick=True)
     if case.solver.kind != "melt-pool" or case.laser is None:
         return [case]
-    return [case, load_case(name, ["solver={ kind = 'conduction', dimensions = 2 }"], quick=True)]
+    heat = f"solver={{ kind = 'conduction', dimensions = {case.solver.dimensions} }}"
+    return [case, load_case(name, [heat], quick=True)]
 
 
 def loops_of(case: Case) -> tuple[str, list[Loop]]:
     """Kind of a case's run, and the loops that it calls."""
-    RecordedText.loops.clear()
+    loops: list[Loop] = []
+    Launcher.text = text_that_records(loops)
     with TemporaryDirectory() as folder:
         simulation.run(case, Path(folder, "run"), threads=1)
-    return kind_of_run(case), list(dict.fromkeys(RecordedText.loops))
+    return kind_of_run(case), list(dict.fromkeys(loops))
 
 
 def main() -> None:
     """Run the cases and write the lists."""
-    Launcher.text = RecordedText
     lists: dict[str, list[Loop]] = defaultdict(list)
     for name in sys.argv[1:] or available_cases():
         for case in runs_of(name):

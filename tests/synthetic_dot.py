@@ -93,10 +93,16 @@ def dot_view(time: float, step: int = 0, *, extent: str = "quarter", columns: in
     return of_whole(view, round(1.0 / np.prod(SHARES[extent])))
 
 
+def below_lid(view: View) -> View:
+    """The same flow below a surface that stays flat."""
+    columns = replace(view.relief, height=np.zeros_like(view.relief.height))
+    return replace(view, relief=None, columns=columns)
+
+
 def make_dot_run(
-    folder: Path, *, extent: str = "quarter", columns: int = 40, fluence=3000.0
+    folder: Path, *, extent: str = "quarter", columns: int = 40, fluence=3000.0, moves=True
 ) -> Path:
-    """Write a complete run folder of a dot and return its path."""
+    """Write a complete run folder of a dot, or of melt below a flat surface; return its path."""
     title = f"made-up dot, {extent}"
     beam = {"kind": "interference", "beams": 4, "wavelength": 1e-6, "period": PERIOD}
     case = {
@@ -116,17 +122,20 @@ def make_dot_run(
     observers = [
         one
         for one in flow_observers(3, topography=Topography(PERIOD, PERIOD, dimensions=3)).members
-        if type(one).__name__ in ("Steps", "MeltPool", "PoolCount", "Topography", "FlowSpeed")
+        if type(one).__name__ in ("Steps", "MeltPool", "PoolCount", "FlowSpeed", "FlowExtrema")
+        or (moves and type(one).__name__ == "Topography")
     ]
     for step, time in enumerate(TIMES):
         view = dot_view(float(time), step, extent=extent, columns=columns)
+        view = view if moves else below_lid(view)
         row = {key: value for one in observers for key, value in one.observe(view).items()}
         run.history.append({**row, "temperature_max_K": float(view.temperature.max())})
         fields = snapshot_fields(replace(view, flow=None))
         fields["speed"] = np.linalg.norm(view.flow.velocity, axis=0).astype(np.float32)
         run.particles.append(view.time, view.position, fields, units=UNITS)
         append_surface(run.surface, view)
-    write_relief(run.path, view.relief, extent)
+    if moves:
+        write_relief(run.path, view.relief, extent)
     summary = {"case": title, "solver": "melt-pool", "particles": fields["mass"].size}
     summary |= {"steps": len(TIMES), "time_s": float(TIMES[-1]), "wall_time_s": 1.0}
     summary |= {"temperature_max_K": 2700.0, "energy": {}}

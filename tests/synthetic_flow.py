@@ -204,3 +204,34 @@ def write_run(folder, views, *, box, end, complete, times=()):
     run.log("made up")
     run.close()
     return folder
+
+
+def cube_view(*, count=6, size=1e-3) -> View:
+    """A view of a cube of liquid at rest and of one temperature, z from -size to 0."""
+    flat = box_view(count=count, size=size, speed=0.0, wall=(300.0, 300.0))
+    layers = [np.tile(values, count) for values in (flat.temperature, flat.enthalpy, flat.volume)]
+    temperature, enthalpy, volume = layers
+    x, z = (np.tile(values, count) for values in flat.position)
+    y = np.repeat(flat.position[0, :count], flat.volume.size)
+    cells, spacing = x.size, size / count
+    flow = replace(
+        flat.flow,
+        velocity=np.zeros((3, cells)),
+        pressure=np.zeros(cells),
+        flows=np.ones(cells, dtype=bool),
+        wall_temperature={},
+        conducting_sides=(),
+    )
+    return replace(
+        flat,
+        position=np.array([x, y, z]),
+        width=np.full((3, cells), spacing),
+        volume=volume * spacing,
+        mass=volume * spacing,
+        temperature=temperature,
+        enthalpy=enthalpy,
+        melt_fraction=np.ones(cells),
+        vapor_fraction=np.zeros(cells),
+        surface=np.flatnonzero(z > -spacing),
+        flow=flow,
+    )

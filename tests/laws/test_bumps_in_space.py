@@ -44,7 +44,8 @@ def deviation(solver, wanted):
 
 def test_driven_by_a_bump_of_temperature():
     """10 ns of 10 K: within 3 % of the largest height everywhere with five rows; 2.8 % came out,
-    in the middle, and 2.5 % after 20 ns."""
+    in the middle, and 2.5 % after 20 ns; in a square of 5 um 4.8 % there with four rows, 1.2 % with
+    seven."""
     radius, depth, end = 1e-6, 280e-9, 1e-8
     heat = (f"{BUMP}.amplitude=10 K", f"{BUMP}.radius={radius} m")
     solver = film_with_a_bump(6.72e-6, "particles.spacing=56 nm", *heat)

@@ -124,5 +124,6 @@ def test_pool():
     u = two.flow.surface_velocity
     fastest = np.abs(u).max()
     assert fastest > 0.5
-    assert u[::-1] == pytest.approx(-u, abs=1e-3 * fastest)
-    assert u[u.size // 2 :] == pytest.approx(one.flow.surface_velocity, abs=5e-3 * fastest)
+    assert u[::-1] == pytest.approx(-u, abs=1e-7 * fastest)
+    # what the solves leave is 1e-6; stress that is not mirrored at x = 0 shows as 1e-3
+    assert u[u.size // 2 :] == pytest.approx(one.flow.surface_velocity, abs=1e-5 * fastest)

@@ -24,10 +24,7 @@ def space(*, warm=(), cold=(), flow=None, domain=None, backend=None, **settings)
     heat |= {f"{side}_temperature": 310.0 for side in warm}
     heat |= {f"{side}_temperature": 290.0 for side in cold}
     chosen = {"flow": WALLS if flow is None else flow, "heat": heat, "material": MATERIAL}
-    case = box_case(cells=8, end=10.0, step=0.05, **EXACT, **chosen, **settings)
-    if domain is not None:
-        tables = case.model_dump()
-        case = case.model_validate(tables | {"domain": {"width": 1.0, "depth": 1.0} | domain})
+    case = box_case(cells=8, end=10.0, step=0.05, domain=domain, **EXACT, **chosen, **settings)
     return recipe_of(case).build(backend or compute.cpu(threads=1))
 
 

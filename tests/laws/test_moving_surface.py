@@ -182,8 +182,8 @@ def test_half_and_full_and_periodic():
         "boundaries.sides=periodic",
     )
     expected = go(half, end)
-    assert go(full, end) == pytest.approx(expected, rel=1e-3)
-    assert go(around, end) == pytest.approx(expected, rel=1e-3)
+    assert go(full, end) == pytest.approx(expected, rel=1e-7, abs=0.0)
+    assert go(around, end) == pytest.approx(expected, rel=1e-7, abs=0.0)
 
 
 def test_volume():

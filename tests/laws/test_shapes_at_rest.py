@@ -1,7 +1,7 @@
-"""A cap of liquid in a square box, pinned to walls that follow it, stays at rest in 3-D.
+"""Liquid in a square box, pinned to its walls, stays at rest in 3-D.
 
-p = 2 gamma/R, the sum of both curvatures. Its walls have no corner in which the height is not
-smooth, as level ones do.
+A cap over walls that follow it has p = 2 gamma/R, the sum of both curvatures. Over level walls the
+height is not smooth in the corners, as r^2 ln r there: the liquid rests all the same.
 """
 
 import numpy as np
@@ -19,10 +19,12 @@ COLUMNS = 12
 CAP = Cap(3e-7, 1.5e-6)
 
 
-def bath():
-    """Solver of a quarter of a box, 0.6 um deep, that begins as a cap, also along its walls."""
+def bath(heights):
+    """Solver of a quarter of a box, 0.6 um deep, that begins with heights of x and y, also along
+    its walls."""
     place = np.linspace(0.0, 1.05 * HALF, 106)
-    start = {"rows": [(x, y, float(CAP.at(x, y))) for x in place for y in place]}
+    x, y = (grid.ravel() for grid in np.meshgrid(place, place, indexing="ij"))
+    start = {"rows": [tuple(map(float, row)) for row in zip(x, y, heights(x, y), strict=True)]}
     walls = {side: "no-slip" for side in ("right", "back", "bottom")}
     planes = {side: "symmetry" for side in ("left", "front")}
     flow = walls | planes | {"surface": "moving", "initial_surface": start}
@@ -45,7 +47,7 @@ def bath():
 def test_cap_over_walls_that_follow_it():
     """Within 1 % of 2 gamma/R and uniform, no flow of mu u/gamma = 1e-4, and the cap remains;
     0.02 % and 4e-5 came out."""
-    solver = bath()
+    solver = bath(CAP.at)
     line = solver.domain.surface.line
     wanted, volume = 2.0 * TENSION * CAP.curvature, line.height.sum()
     before = line.height.copy()
@@ -57,3 +59,29 @@ def test_cap_over_walls_that_follow_it():
     assert VISCOSITY * speed / TENSION < 1e-4
     assert line.height == pytest.approx(before, abs=2e-3 * CAP.height)
     assert line.height.sum() == pytest.approx(volume, rel=1e-10)
+
+
+def membrane(x, y):
+    """Height of a membrane under even pressure over a square of 2 um, 150 nm in its middle [m]."""
+    found = np.zeros(x.shape)
+    for i in range(1, 60, 2):
+        for j in range(1, 60, 2):
+            sign, square = (-1.0) ** ((i + j - 2) // 2), i * j * (i * i + j * j)
+            wave = np.cos(0.5 * np.pi * i * x / HALF) * np.cos(0.5 * np.pi * j * y / HALF)
+            found += sign / square * wave
+    inside = (x <= HALF) & (y <= HALF)
+    return np.where(inside, 0.15 * HALF * found / found[0], 0.0)
+
+
+def test_corners_of_level_walls():
+    """p of a square of side 2 b by its volume within 1 %, 0.4987 gamma/b at 0.28818 b^3, and the
+    liquid comes to rest: mu u/gamma = 1.8e-3 in the corner after 15 ns, 5e-4 after 45 ns. Short
+    waves that are damped there as elsewhere feed a flow of 5.7e-3 that stays."""
+    solver = bath(membrane)
+    line = solver.domain.surface.line
+    volume = 4.0 * line.height.sum() * np.prod(line.widths)
+    go(solver, 1.5e-8, step=1e-9)
+    wanted = 0.4987 * TENSION / HALF * volume / (0.28818 * HALF**3)
+    assert np.mean(host(solver, "pressure")) == pytest.approx(wanted, rel=0.01)
+    speed = np.linalg.norm(host(solver, "velocity"), axis=0).max()
+    assert VISCOSITY * speed / TENSION < 3e-3

@@ -13,7 +13,7 @@ from typing import Any
 EXTENSIVE = {"J": ("J/m^2", "J/m", "J"), "kg": ("kg/m^2", "kg/m", "kg"), "m^3": ("m", "m^2", "m^3")}
 """Units of amounts in 1-D, 2-D and 3-D: a 1-D run holds a unit area, a 2-D run a unit length."""
 UNITS = ("K/s", "K/m", "m^3/s", "m^2/s", "m/s^2", "1/s", "1/m", "W/m^2", "N/m", "Pa", "m/s")
-UNITS += ("m^3", "m^2", "m", "s", "K", "J", "kg", "deg")
+UNITS += ("m^3", "m^2", "m", "s", "K", "J", "kg", "N", "deg")
 """Units that keys end in, those with two parts first."""
 
 

@@ -19,7 +19,8 @@ with it: no maximum within some spacings of the edge of the liquid counts. The p
 the center of its top, all on its side of the line that lies less than that twentieth below it:
 where maxima that do not count by themselves take turns in being the highest, the place of the
 highest jumps between them, as from 0.9 of the width of a pool to its middle. Seen is the side
-x > 0; a run over a full period is symmetric, which a law of its own checks.
+x > 0; a run over a full period is symmetric, which a law of its own checks. In 3-D it is the line
+y = 0 on that side, through the middle of a dot.
 """
 
 from __future__ import annotations
@@ -32,6 +33,7 @@ from lasersph.observers.flow_speed import flow_of
 from lasersph.observers.observer import Observer, Row
 from lasersph.observers.peak import Span
 from lasersph.observers.quantity import Quantity
+from lasersph.observers.surface_fields import line_along_x
 from lasersph.observers.view import View
 
 PROMINENCE = 0.05
@@ -55,7 +57,7 @@ class FlowExtrema(Observer):
     """Observes the inner and the outer extremum of the speed at the surface."""
 
     title = "extrema of the surface speed"
-    note = "On the side x > 0; 0 where one does not exist."
+    note = "On the side x > 0, in 3-D at y = 0; 0 where one does not exist."
     columns = tuple(
         one
         for name in ("outer", "inner")
@@ -149,13 +151,17 @@ def zone_edge(view: View) -> float:
     """Outer edge at x > 0 of the surface at the vaporization temperature [m]; 0 where none is."""
     if view.vaporization is None:
         return 0.0
-    row = flow_of(view).surface
+    line = line_along_x(view)
     # cells at the boiling point, but for rounding
-    boils = view.temperature[row] >= view.vaporization * NEARLY
+    boils = line.temperature >= view.vaporization * NEARLY
     if not np.any(boils):
         return 0.0
-    half = 0.5 * float(view.width[0, row[0]])
-    return max(float(np.max(view.position[0, row][boils])) + half, 0.0)
+    return max(float(np.max(line.x[boils])) + 0.5 * spacing_at(view), 0.0)
+
+
+def spacing_at(view: View) -> float:
+    """Spacing of the particles at the surface along x [m]."""
+    return float(view.width[0, flow_of(view).surface[0]])
 
 
 def surface_extrema(view: View, margin: float = 0.0, line: float = 0.0) -> list[Place]:
@@ -165,19 +171,18 @@ def surface_extrema(view: View, margin: float = 0.0, line: float = 0.0) -> list[
         margin: spacings from the edge of the liquid within which none counts.
         line: place that no top crosses [m].
     """
-    flow = flow_of(view)
-    x = view.position[0, flow.surface]
+    surface = line_along_x(view)
     # half of the surface at x > 0, closed by zeros at both ends
-    chosen = flow.flows[flow.surface] & (x > 0.0)
+    chosen = surface.flows & (surface.x > 0.0)
     if np.count_nonzero(chosen) < 3:
         return []
-    speed = np.concatenate([[0.0], flow.surface_speed[chosen], [0.0]])
-    place = np.concatenate([[0.0], x[chosen], [0.0]])
+    speed = np.concatenate([[0.0], surface.speed[chosen], [0.0]])
+    place = np.concatenate([[0.0], surface.x[chosen], [0.0]])
     # peaks that stand out, and their places by the weight of their tops
     least = PROMINENCE * float(np.max(speed))
     found, rise = local_maxima(speed, least)
     center = centers_of_tops(place, speed, found, least, line)
-    edge = float(np.max(place)) - margin * float(view.width[0, flow.surface[0]])
+    edge = float(np.max(place)) - margin * spacing_at(view)
     inside = np.flatnonzero(place[found] <= edge)
     # the two that stand out most, in order of x
     most = np.sort(inside[np.argsort(-rise[inside], kind="stable")[:2]])

@@ -57,9 +57,10 @@ class FlowView:
             temperature or flux.
         wall_heat, wall_impulse, wall_pressing: of each side of a box, since the start: heat that
             has entered [J/m], momentum that it has given to the liquid along itself, and that with
-            which the liquid has pressed on it [N s/m], as the steps exchanged them; nothing presses
-            where the surface moves. Heat through level sides is that of the whole where half a box
-            is computed, all else that of the half.
+            which the liquid has pressed on it [N s/m], as the steps exchanged them, in 3-D [J] and
+            [N s], with momentum by side and axis, as surface_x; nothing presses where the surface
+            moves. Heat through level sides is that of the whole where half a box is computed, all
+            else that of the half.
         full_step: step before it was cut to end at a given time [s].
     """
 

@@ -206,9 +206,7 @@ def flow_observers(
         here = (one for one in heat if not isinstance(one, MeltPool | PoolCount | Vaporization))
         return Observers([*here, *flow, BoxFlow(dimension), WallExchange(dimension)])
     cells = (FlowCells(),) if covered > dimension and topography is None else ()
-    # extrema of a line along x, which a surface in 3-D is not
-    extrema = (FlowExtrema(),) if dimension == 2 else ()
-    return Observers([*heat, *flow, *extrema, *cells])
+    return Observers([*heat, *flow, FlowExtrema(), *cells])
 
 
 def ablation_observers(

@@ -51,7 +51,8 @@ class View:
             the run follows it. column_share: (columns,) shares of the surface that these have,
             their sum is 1; in a section (r, z) those of rings.
         relief: heights of the surface by columns, over x or, in 3-D, over x and y; None where it
-            stays flat.
+            stays flat. columns: those of a flat surface in 3-D below which melt flows, at 0; None
+            elsewhere.
         electrons: temperature and energy of hot electrons; None in a run with one temperature.
         flow: velocity, pressure and what belongs to them; None in a run without flow.
         ablation: crater and ejecta; None in a run without ablation.
@@ -87,6 +88,7 @@ class View:
     evaporated: np.ndarray | None = None
     column_share: np.ndarray | None = None
     relief: Relief | AreaRelief | None = None
+    columns: AreaRelief | None = None
     electrons: ElectronView | None = None
     flow: FlowView | None = None
     ablation: AblationView | None = None

@@ -26,13 +26,14 @@ from math import prod
 
 import numpy as np
 
+from lasersph.input.key_units import suffix
 from lasersph.observers.box_sections import Box, wall_temperature
 from lasersph.observers.flow_speed import flow_of
 from lasersph.observers.flow_view import side_images
 from lasersph.observers.observer import Observer, Row
 from lasersph.observers.quantity import Quantity
 from lasersph.observers.view import View
-from lasersph.particles.faces import ENDS, PLANE, face_pairs
+from lasersph.particles.faces import AXES, ENDS, PLANE, face_pairs
 
 EVERY = 50
 """Steps between two looks at temperatures of sides that are not given, and two marks."""
@@ -45,10 +46,20 @@ LAST = 0.25
 MEAN = "mean"
 SIDES = tuple(ENDS)
 """Of a block; a section has those of `PLANE`."""
-FORCES = {
-    "drag": "drag of the wall on the liquid",
-    "pressing": "force of the liquid onto the wall",
+DRAG, PRESSING = "drag of the wall on the liquid", "force of the liquid onto the wall"
+SECTION_FORCES = {
+    f"{force}_{side}": f"{words}, {side}"
+    for force, words in (("drag", DRAG), ("pressing", PRESSING))
+    for side in PLANE
 }
+"""Forces of a section by the ends of their keys [N/m]."""
+BLOCK_FORCES = {
+    f"drag_{side}_{axis}": f"{DRAG} along {axis}, {side}"
+    for side in SIDES
+    for axis in AXES
+    if AXES.index(axis) != ENDS[side][0] % 3
+} | {f"pressing_{side}": f"{PRESSING}, {side}" for side in SIDES}
+"""Forces of a block likewise [N]."""
 
 
 class WallExchange(Observer):
@@ -64,11 +75,8 @@ class WallExchange(Observer):
         *(Quantity(f"box_heat_{side}_J", "J", f"heat that has entered, {side}") for side in SIDES),
         *(Quantity(f"box_nusselt_{side}", "", f"Nusselt number, {side}") for side in SIDES),
         Quantity(f"box_nusselt_{MEAN}", "", "domain-averaged Nusselt number"),
-        *(
-            Quantity(f"box_{force}_{side}_N_m", "N/m", f"{words}, {side}")
-            for force, words in FORCES.items()
-            for side in PLANE
-        ),
+        *(Quantity(f"box_{name}_N_m", "N/m", words) for name, words in SECTION_FORCES.items()),
+        *(Quantity(f"box_{name}_N", "N", words) for name, words in BLOCK_FORCES.items()),
     )
     results = (
         *(
@@ -80,13 +88,13 @@ class WallExchange(Observer):
                     f"box.heat.flux_{side}_W_m2", "W/m^2", f"mean heat flux into the box, {side}"
                 ),
                 Quantity(f"box.heat.nusselt_{side}", "", f"Nusselt number, {side}"),
-                *(
-                    Quantity(f"box.walls.{force}_{side}_N_m", "N/m", f"{words}, {side}")
-                    for force, words in FORCES.items()
-                    if side in PLANE
-                ),
             )
         ),
+        *(
+            Quantity(f"box.walls.{name}_N_m", "N/m", words)
+            for name, words in SECTION_FORCES.items()
+        ),
+        *(Quantity(f"box.walls.{name}_N", "N", words) for name, words in BLOCK_FORCES.items()),
         Quantity(f"box.heat.nusselt_{MEAN}", "", "domain-averaged Nusselt number"),
         Quantity("box.heat.between", "", "sides that drive the flow"),
         Quantity("box.heat.difference_K", "K", "difference of their temperatures"),
@@ -97,14 +105,14 @@ class WallExchange(Observer):
     def __init__(self, dimension: int = 2) -> None:
         """
         Args:
-            dimension: 2 or 3; a block exchanges heat with six sides, and no force is booked.
+            dimension: 2 or 3; a block has six sides, and drag in two directions along each.
         """
         self.sides = SIDES if dimension == 3 else PLANE
-        self.forces = tuple(f"{force}_{side}" for force in FORCES for side in PLANE)
-        if dimension == 3:
-            self.forces = ()
+        self.forces = tuple(BLOCK_FORCES if dimension == 3 else SECTION_FORCES)
+        self.unit_of_force = suffix("N" if dimension == 3 else "N/m")
         # of the columns of all boxes, those that this one has
-        measured = {f"box_{force}_N_m" for force in self.forces} | {f"box_nusselt_{MEAN}"}
+        measured = {f"box_{force}{self.unit_of_force}" for force in self.forces}
+        measured |= {f"box_nusselt_{MEAN}"}
         for side in self.sides:
             measured |= {f"box_heat_{side}_J", f"box_nusselt_{side}"}
         self.columns = tuple(one for one in self.columns if one.key in measured)
@@ -120,7 +128,8 @@ class WallExchange(Observer):
         self.marks: list[dict[str, float]] = []
 
     def observe(self, view: View) -> Row:
-        """Heat [J], Nusselt numbers and forces [N/m] of the step; 0 where there are none."""
+        """Heat [J], Nusselt numbers and forces [N/m], in 3-D [N], of the step; 0 where there are
+        none."""
         flow, before = flow_of(view), self.sums
         # sides are extrapolated from particles, which takes longer than a step
         if view.step % EVERY == 0:
@@ -130,9 +139,9 @@ class WallExchange(Observer):
         # sums since the start; their differences are means over any span of time
         self.sums = {"time": view.time, MEAN: before[MEAN] + view.time_step * mean}
         self.sums |= {f"heat_{side}": flow.wall_heat.get(side, 0.0) for side in self.sides}
-        if self.forces:
-            self.sums |= {f"drag_{side}": flow.wall_impulse.get(side, 0.0) for side in PLANE}
-            self.sums |= {f"pressing_{side}": flow.wall_pressing.get(side, 0.0) for side in PLANE}
+        booked = {f"drag_{name}": value for name, value in flow.wall_impulse.items()}
+        booked |= {f"pressing_{side}": value for side, value in flow.wall_pressing.items()}
+        self.sums |= {force: booked.get(force, 0.0) for force in self.forces}
         # marks of the sums, for the mean over the last quarter
         if view.step % EVERY == 0:
             self.marks.append(self.sums)
@@ -157,7 +166,7 @@ class WallExchange(Observer):
         rate = rates(start, self.sums)
         found: dict[str, object] = {"box.walls.from_s": start["time"]}
         for force in self.forces:
-            found[f"box.walls.{force}_N_m"] = rate[force]
+            found[f"box.walls.{force}{self.unit_of_force}"] = rate[force]
         # temperatures and fluxes of the sides, Nusselt numbers of those that drive the flow
         for side, temperature in self.temperature.items():
             found[f"box.heat.temperature_{side}_K"] = temperature

@@ -59,7 +59,7 @@ def export(
         return read_surface(heights).write(heights.with_suffix(f".{format}"))
     run = open_run(folder)
     # A profile has no area: it is drawn out for formats of triangles.
-    moves = len(run.surface) > 0
+    moves = run.surface_moves
     relief = run.relief(time)
     is_profile = moves and relief.y.size == 1
     if is_profile and format in ("stl", "ply"):

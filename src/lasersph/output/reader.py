@@ -143,9 +143,16 @@ class Run:
 
     @cached_property
     def surface(self) -> Snapshots:
-        """The surface that moves, a line or in 3-D a grid, at the times of the snapshots; none of a
-        flat one."""
+        """The surface at the times of the snapshots: a line of one that moves, a grid over which
+        melt flows in 3-D; none of others."""
         return Snapshots(self.path / "surface.vtkhdf")
+
+    @property
+    def surface_moves(self) -> bool:
+        """Whether the surface has heights: a grid below which melt flows may stay flat."""
+        if not len(self.surface):
+            return False
+        return self.surface.dimension == 2 or "height" in self.surface.units
 
     def relief(self, time: float | None = None) -> HeightMap:
         """The surface of a crater, or of metal that moved, as arrays in meters.
@@ -165,7 +172,7 @@ class Run:
         from lasersph.output.height_map import height_map, profile_map, surface_map
 
         # A surface that moves has a line of its own; else the uppermost particles are the surface.
-        steps = self.surface if len(self.surface) else self.snapshots
+        steps = self.surface if self.surface_moves else self.snapshots
         if not len(steps):
             raise OutputError(f"{self.path} has no snapshots yet")
         step = steps[-1] if time is None else steps.nearest(time)

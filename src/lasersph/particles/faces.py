@@ -9,6 +9,7 @@ LEFT, RIGHT, FRONT, BACK, BOTTOM, SURFACE = "left", "right", "front", "back", "b
 LATERAL = ((LEFT, RIGHT), (FRONT, BACK))
 """Faces at the lower and the upper end of x and of y."""
 VERTICAL = (BOTTOM, SURFACE)
+AXES = "xyz"
 PLANE = (LEFT, RIGHT, BOTTOM, SURFACE)
 """Faces of a box in two dimensions."""
 ENDS = {

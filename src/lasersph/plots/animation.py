@@ -115,7 +115,7 @@ def check_snapshots(run: Run) -> None:
         return
     if run.snapshots.dimension != 2:
         raise OutputError(
-            f"{run.path} is no plane run: only those are animated, and surfaces that move in 3-D"
+            f"{run.path} is no plane run: only those are animated, and surfaces of melt in 3-D"
         )
 
 

@@ -1,4 +1,5 @@
-"""Frames of a surface over x and y that moves: its height and its temperature, side by side."""
+"""Frames of a surface over x and y: its height, or the speed of a flat one, and its temperature,
+side by side."""
 
 from __future__ import annotations
 
@@ -16,7 +17,11 @@ from lasersph.plots.surface_maps import edges
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-COLORS = {"height": "RdBu_r", "temperature": style.TEMPERATURE_COLORS}
+COLORS = {
+    "height": "RdBu_r",
+    "speed": style.SPEED_COLORS,
+    "temperature": style.TEMPERATURE_COLORS,
+}
 
 
 def surface_frames(run: Run, times: np.ndarray) -> Iterator[Figure]:
@@ -27,16 +32,18 @@ def surface_frames(run: Run, times: np.ndarray) -> Iterator[Figure]:
     steps = [run.surface.nearest(float(time)) for time in times]
     first = surface_map(steps[0], run.surface.shape, run.mirrored)
     unit = style.fitting_unit("m", max(np.max(np.abs(first.x)), np.max(np.abs(first.y))))
-    # Scales of all frames: heights around 0, temperatures from the coldest to the hottest.
-    deepest = max(largest(step["height"]) for step in steps)
-    up = style.fitting_unit("m", deepest)
-    factors = {"height": up.factor, "temperature": 1.0}
+    # Scales of all frames: heights around 0, speeds from 0 on, temperatures from the coldest to
+    # the hottest.
+    shown = "height" if run.surface_moves else "speed"
+    most = max(largest(step[shown]) for step in steps)
+    up = style.fitting_unit("m", most) if run.surface_moves else style.speed_unit(most)
+    factors = {shown: up.factor, "temperature": 1.0}
     heat = [float(end(step["temperature"])) for step in steps for end in (np.min, np.max)]
     ends = {
-        "height": (-deepest * up.factor, deepest * up.factor),
+        shown: (-most * up.factor * run.surface_moves, most * up.factor),
         "temperature": (min(heat), max(heat)),
     }
-    names = {"height": f"height [{up.name}]", "temperature": "temperature [K]"}
+    names = {shown: f"{shown} [{up.name}]", "temperature": "temperature [K]"}
     figure, panels = style.new_figure(1, 2, height=3.4)
     images = []
     for axes, name in zip(panels, names, strict=True):

@@ -1,4 +1,4 @@
-"""The surface of a run in 3-D as maps: height, speed, temperature; and sections through it.
+"""The surface of a run in 3-D as maps: speed, temperature; where it moves height and sections.
 
 They show the whole period, mirrored where half or a quarter of it was computed.
 """
@@ -29,14 +29,15 @@ Display: measured on a map that is as wide as it is high."""
 
 
 def has_maps(run: Run) -> bool:
-    """Whether the run has a surface over x and y that moves."""
+    """Whether the run has a surface over x and y, below which melt flows."""
     return len(run.surface) > 0 and run.surface.dimension == 3
 
 
 def surface_height_map(run: RunOrFolder) -> Figure | None:
-    """Height at the end, with lines of equal height; None without a surface over x and y."""
+    """Height at the end, with lines of equal height; None without a surface over x and y that
+    moves."""
     run = open_run(run)
-    if not has_maps(run):
+    if not (has_maps(run) and run.surface_moves):
         return None
     relief = run.relief()
     up = style.fitting_unit("m", largest(relief.z))
@@ -56,9 +57,9 @@ def surface_height_map(run: RunOrFolder) -> Figure | None:
 
 def surface_sections(run: RunOrFolder) -> Figure | None:
     """Sections at the end through x = y = 0: along x, y and the diagonal; None without a surface
-    over x and y."""
+    over x and y that moves."""
     run = open_run(run)
-    if not has_maps(run):
+    if not (has_maps(run) and run.surface_moves):
         return None
     relief = run.relief()
     reach = min(np.max(np.abs(relief.x)), np.max(np.abs(relief.y)))

@@ -1,4 +1,4 @@
-"""Files of a surface that moves: surface.vtkhdf beside the snapshots, surface.csv at the end."""
+"""Files of a surface: surface.vtkhdf beside the snapshots, surface.csv at the end if it moves."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from pathlib import Path
 
 from lasersph.observers.area_relief import AreaRelief
 from lasersph.observers.relief import Relief
-from lasersph.observers.surface_fields import UNITS, surface_fields, surface_points
+from lasersph.observers.surface_fields import UNITS, columns_of, surface_fields, surface_points
 from lasersph.observers.view import View
 from lasersph.output.height_map import whole_map
 from lasersph.output.particle_file import ParticleFile
@@ -18,10 +18,11 @@ def append_surface(file: ParticleFile, view: View) -> None:
     """Add the surface of a view that has one: a line, or in 3-D triangles, with its fields.
 
     Raises:
-        ValueError: a surface that does not move. OutputError: the file could not be written.
+        ValueError: a surface without columns. OutputError: the file could not be written.
     """
     # the numbers of columns along x and y make it a grid
-    shape = view.relief.height.shape if isinstance(view.relief, AreaRelief) else None
+    columns = columns_of(view)
+    shape = columns.height.shape if isinstance(columns, AreaRelief) else None
     file.append(view.time, surface_points(view), surface_fields(view), units=UNITS, shape=shape)
 
 

@@ -375,7 +375,7 @@ class _Loop:
 
     def _snapshot(self, view: View) -> None:
         self.folder.particles.append(view.time, view.position, snapshot_fields(view), units=UNITS)
-        if view.relief is not None:
+        if view.relief is not None or view.columns is not None:
             append_surface(self.folder.surface, view)
 
     def _save(self, *, is_last: bool = False) -> None:

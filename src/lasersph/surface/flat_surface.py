@@ -172,10 +172,8 @@ class FlatSurface(Surface):
         backend.pointwise(surface_tension, {"T": self.temperature}, self._gamma, **self.table)
         self._find_slope(self._gamma, self.stress, rows, neighbors, mark)
         near = self._rows(self.near_surface, active)
-        # (2-D sees beyond a plane of symmetry that of the source as it is, not mirrored)
         found = backend.zeros(self.stress.shape)
-        extend = neighbors.mirror if len(self.normal) == 3 else neighbors.gather
-        fields = {"f": extend(self.stress), "s": mark}
+        fields = {"f": neighbors.mirror(self.stress), "s": mark}
         terms, finish = extension_terms, extend_from_surface
         # particles near the surface take the mean stress of those at it
         backend.pair_sum(terms, neighbors.pairs, fields, found, rows=near, finish=finish)

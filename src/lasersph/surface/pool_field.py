@@ -215,9 +215,37 @@ class PoolField:
         return curvature_of(self.gradient(f), second, [mixed])
 
     def damp_short_waves(self, share: float) -> None:
-        """Take `share` (at most 1) of the way to the smoothed field of the same volume."""
-        smoothed = self.at_columns(self.smoothed)
-        self.height = drawn_to(smoothed, self.height, self._raised, 1.0, share)
+        """Take `share` (at most 1) of the way to the smoothed field of the same volume, but not in
+        the corners of walls (`_is_damped`)."""
+        smoothed = np.where(self._is_damped, self.at_columns(self.smoothed), self.height)
+        raised = np.where(self._is_damped, self._raised, 0.0)
+        self.height = drawn_to(smoothed, self.height, raised, 1.0, share)
+
+    @cached_property
+    def _is_damped(self) -> NDArray[np.bool_]:
+        """(m,) which columns lie further than lambda_c from a corner of two walls, along x or y.
+
+        Where two pinned sides meet at a right angle, a surface of even curvature is as r^2 ln r,
+        which no smoothed field is: heights there hold short waves for good. Drawn to the smoothed
+        field, they would be filled again by a flow that never rests.
+        """
+        found = np.zeros(self.count, bool)
+        near = []
+        for start, width, n, ends, place in zip(
+            *(self.whole.start, self.widths, self.whole.shape, self.whole.ends, self.places),
+            strict=True,
+        ):
+            # distance to the nearest wall of the axis
+            walls = [
+                wall
+                for wall, end in zip((start, start + n * width), ends, strict=True)
+                if end == "pinned"
+            ]
+            apart = [np.abs(place - wall) for wall in walls]
+            near.append(np.min(apart, axis=0) < self.cutoff if apart else found)
+        is_damped = ~(near[0] & near[1])
+        # a pool that is nothing but a corner is damped as any other
+        return is_damped if is_damped.any() else ~found
 
     @cached_property
     def _raised(self) -> Array:

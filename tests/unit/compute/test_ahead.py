@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 from reliability_runs import wait_for
 
+from lasersph.case import available_cases, load_case
 from lasersph.compute import ahead, cache
 from lasersph.compute.compile_lock import compiling_alone
 from lasersph.compute.generate import Argument, Loop, LoopText
@@ -17,7 +18,7 @@ from lasersph.compute.loop_record import loop_of, record_of
 from lasersph.particles.support import common
 from lasersph.physics.continuity import density_rate
 from lasersph.physics.phase_change import state
-from lasersph.simulation.known_loops import FILE
+from lasersph.simulation.known_loops import FILE, kind_of_run
 from lasersph.sph.kernels import kernel
 
 REAL = ("real", ())
@@ -80,6 +81,12 @@ def test_known_loops_can_be_written():
     for loops in lists.values():
         for loop in loops:
             assert "def loop(" in LoopText(loop).written()
+
+
+def test_every_kind_of_shipped_run_is_known():
+    """On a fresh machine the loops of each shipped case are compiled by all processors."""
+    kinds = {kind_of_run(load_case(name)) for name in available_cases()}
+    assert kinds <= set(ahead.places_of(FILE)), "python benchmarks/known_loops.py CASE"
 
 
 def other_process(text, folder):
@@ -154,7 +161,7 @@ def test_helpers_end_with_who_asked(tmp_path):
         from pathlib import Path
         from lasersph.compute import ahead
         ahead.available = lambda: 2
-        from lasersph.simulation.known_loops import FILE
+        from lasersph.simulation.known_loops import FILE, kind_of_run
         with ahead.CompilingAhead(FILE, {max(ahead.read_lists(FILE))!r}) as compiling:
             compiling._begin()
             print(compiling.helpers[0].pid, flush=True)

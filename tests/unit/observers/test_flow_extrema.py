@@ -4,10 +4,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from synthetic_dot import TIMES, below_lid, dot_view
 from synthetic_flow import FASTEST, liquid_rows, pool_flow
 from synthetic_run import NM, NS, PERIOD
 
-from lasersph.observers.flow_extrema import FlowExtrema, centers_of_tops, surface_extrema
+from lasersph.observers.flow_extrema import FlowExtrema, centers_of_tops, surface_extrema, zone_edge
 
 
 def test_two_extrema_are_found():
@@ -204,3 +205,15 @@ def test_extrema_in_time():
     assert found["inner_exceeds_lasted_s"] == pytest.approx(2 * NS)
     assert found["inner_speed_max_m_s"] == pytest.approx(1.5, rel=5e-3)
     assert found["outer_speed_max_m_s"] == pytest.approx(1.0, rel=5e-3)
+
+
+@pytest.mark.parametrize("extent", ["quarter", "full"])
+def test_extremum_of_a_dot_lies_on_the_line_through_its_middle(extent):
+    """U sin kx along y = 0 up to the rim at a quarter period, below a flat surface as well."""
+    view = dot_view(TIMES[-1], extent=extent)
+    for one in (view, below_lid(view)):
+        (only,) = surface_extrema(one)
+        assert only == pytest.approx((2.0 * np.sin(0.45 * np.pi), 0.25 * 5e-6), rel=0.1)
+    hot = replace(view, vaporization=2500.0)
+    # T = 1800 K + 900 K cos kx is 2500 K at kx = 0.68
+    assert zone_edge(hot) == pytest.approx(0.68 * 5e-6 / (2.0 * np.pi), abs=125 * NM)

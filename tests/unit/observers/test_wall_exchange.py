@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from synthetic_flow import box_view
+from synthetic_flow import box_view, cube_view
 
 from lasersph.observers.view import of_whole
 from lasersph.observers.wall_exchange import EVERY, WallExchange, rates
@@ -136,3 +136,20 @@ def test_half_a_box_gives_heat_through_level_sides_of_the_whole():
     fluxes = [observer.summary()["box"]["heat"] for observer in observers]
     for side in heat:
         assert fluxes[1][f"flux_{side}_W_m2"] == pytest.approx(fluxes[0][f"flux_{side}_W_m2"])
+
+
+def test_a_block_has_forces_along_two_axes_of_each_side():
+    """Means of what is booked by side and axis, in N; nothing in N/m."""
+    view = cube_view()
+    observer = WallExchange(3)
+    for k, time in enumerate((0.0, 1e-5, 2e-5)):
+        impulse = {"surface_x": 3.0 * time, "back_z": -2.0 * time}
+        flow = replace(view.flow, wall_impulse=impulse, wall_pressing={"front": 5.0 * time})
+        row = observer.observe(replace(view, time=time, step=k * EVERY, flow=flow))
+    walls = observer.summary()["box"]["walls"]
+    assert walls["drag_surface_x_N"] == pytest.approx(3.0) == row["box_drag_surface_x_N"]
+    assert walls["drag_back_z_N"] == pytest.approx(-2.0)
+    assert walls["pressing_front_N"] == pytest.approx(5.0)
+    assert walls["drag_left_y_N"] == 0.0
+    # two along each of six sides and one across, with the time from which on they are means
+    assert len(walls) == 19

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 import synthetic_dot
-from synthetic_dot import DEPTH, PERIOD, dot_view, make_dot_run
+from synthetic_dot import DEPTH, PERIOD, below_lid, dot_view, make_dot_run
 
 from lasersph.observers.relief import Relief
 from lasersph.observers.surface_fields import at_columns, surface_fields
-from lasersph.output import open_run
+from lasersph.output import OutputError, open_run
 from lasersph.output.export import export
 from lasersph.output.frame_blocks import particle_index
 from lasersph.output.surface_files.read import read_surface
@@ -116,9 +117,23 @@ def test_parts_have_the_same_numbers(tmp_path):
     assert found[2] == pytest.approx(found[0], rel=1e-9, abs=0.0)
 
 
-def test_flat_surface_is_refused():
-    """A view without heights has no fields of them."""
-    from dataclasses import replace
+def test_flat_surface_has_no_heights(tmp_path):
+    """Its columns have temperature and velocity; there is no relief to read or to export."""
+    found, moving = surface_fields(below_lid(dot_view(3e-8))), surface_fields(dot_view(3e-8))
+    assert set(moving) - set(found) == {"height"}
+    assert all(np.array_equal(values, moving[name]) for name, values in found.items())
+    run = open_run(make_dot_run(tmp_path / "run", moves=False))
+    assert len(run.surface) == 7 and not run.surface_moves
+    assert np.all(run.surface[-1]["position"][2] == 0.0)
+    assert not (run.path / "surface.csv").exists()
+    for read in (run.relief, lambda: export(run, "csv")):
+        with pytest.raises(OutputError, match="a surface that moves"):
+            read()
+    blocks = embedded_frames(run)["index"]["surface"]["blocks"]
+    assert set(blocks) == {"position", "temperature", "speed"}
 
-    with pytest.raises(ValueError, match="does not move"):
+
+def test_surface_without_columns_is_refused():
+    """A view of neither has no fields of a surface."""
+    with pytest.raises(ValueError, match="no columns"):
         surface_fields(replace(dot_view(0.0), relief=None))

@@ -77,6 +77,21 @@ def test_animation(dot):
     assert animate_run(dot).stat().st_size > 1000
 
 
+def test_maps_of_a_flat_surface(tmp_path):
+    """Speed and temperature are those of the dot; no heights; the animation has speeds."""
+    flat = open_run(make_dot_run(tmp_path / "flat", moves=False))
+    assert surface_height_map(flat) is None and surface_sections(flat) is None
+    speed, temperature = (
+        np.asarray(draw(flat).axes[0].images[0].get_array(), float) for draw in MAPS[1:]
+    )
+    assert np.max(speed) == pytest.approx(FASTEST, rel=0.02)
+    assert temperature[20, 20] == pytest.approx(2700.0, rel=0.01)
+    *_, last = surface_frames(flat, flat.surface.times)
+    left, right = (axes.images[0] for axes in last.axes[:2])
+    assert np.max(left.get_array()) == pytest.approx(FASTEST, rel=0.02)
+    assert left.get_clim()[0] == 0.0 and np.max(right.get_array()) > 2600.0
+
+
 def test_sections(dot):
     """Along x and y cosines, along the diagonal their square, over its own length."""
     lines = surface_sections(dot).axes[0].lines[:3]

@@ -123,7 +123,9 @@ def test_a_turned_trough_is_as_curved():
     assert found.curvature[inside] == pytest.approx(expected[inside], rel=0.02, abs=0.0)
 
 
-@pytest.mark.parametrize("ends", [(MIRROR, MIRROR), (PERIODIC, MIRROR), (PINNED, MIRROR)])
+@pytest.mark.parametrize(
+    "ends", [(MIRROR, MIRROR), (PERIODIC, MIRROR), (PINNED, MIRROR), (PINNED, PINNED)]
+)
 def test_volume(ends):
     """Fluxes within two pools that meet in a corner, and damping, move volume and make none; none
     passes from one pool to the other."""
@@ -144,6 +146,24 @@ def test_volume(ends):
         before = pool.height.sum()
         pool.damp_short_waves(0.3)
         assert pool.height.sum() == pytest.approx(before, abs=1e-12 * moved)
+
+
+def test_corners_of_two_walls_are_not_damped():
+    """Within lambda_c of both walls heights keep their short waves, elsewhere they lose them; a
+    wall alone has no corner, and a pool that is all corner is damped."""
+    corner = ("mirror", "pinned")
+    grid = grid_of((corner, corner))
+    found, (x, y) = whole_of(grid), grid.places
+    near = ((x > SIDE - CUTOFF) & (y > 1.25 * SIDE - CUTOFF)).ravel()
+    rough = 1e-9 * (-1.0) ** np.arange(grid.count)
+    found.height = rough.copy()
+    found.damp_short_waves(1.0)
+    assert 0 < near.sum() < grid.count
+    assert np.array_equal(found.height[near], rough[near])
+    assert np.abs(found.height[~near]).max() < 0.5e-9
+    for ends in ((corner, MIRROR), (PERIODIC, corner)):
+        assert whole_of(grid_of(ends))._is_damped.all()
+    assert PoolField(grid, np.flatnonzero(near))._is_damped.all()
 
 
 @pytest.mark.parametrize("ends", [MIRROR, PERIODIC])

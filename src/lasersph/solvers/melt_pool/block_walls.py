@@ -28,7 +28,8 @@ class BlockWalls:
     Attributes:
         exchange_heat: whether any does. min_distance: see `wall_terms` [m]. faces: (M,) numbers by
             the names of `ghost_faces`, 0 where there is none. rules: (M,) what they mean to heat,
-            by the names of `ghost_walls`.
+            by the names of `ghost_walls`. force_shares: by face, see
+            `FaceConditions.force_shares`.
     """
 
     def __init__(
@@ -56,6 +57,8 @@ class BlockWalls:
             self._walls[name] = table(is_ghost * values)
         self._varies = table(rules.varies) if rules.varies.any() else None
         self._faces = {"wall": table(rules.walls), "heat_face": table(rules.heat_face)}
+        shares = conditions.force_shares(ghosts.particles.ghost_types)
+        self.force_shares = {face: table(values) for face, values in shares.items()}
 
     def _state(self, temperature: np.ndarray) -> dict[str, np.ndarray]:
         """Temperature, heat potential and enthalpy of walls."""

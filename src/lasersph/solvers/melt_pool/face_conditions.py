@@ -194,6 +194,34 @@ class FaceConditions:
             self._set_heat(rules, one)
         return rules
 
+    def force_shares(self, ghost_types: GhostTypes) -> dict[str, Array]:
+        """Shares (d, w) that faces have of each component of a force between a particle and a
+        ghost, by the type of that.
+
+        A component across one of the faces between is that face's, one along all of them is shared
+        evenly. Planes of symmetry have a share only where no other face lies between: beyond both
+        lies the image of a pair of that face.
+        """
+        crossings = list(self._crossings(ghost_types))
+        is_plane = [self.flow_kind(one.face) == "symmetry" for one in crossings]
+        has_wall = np.zeros(ghost_types.sign.shape[1], bool)
+        for one, mirrors in zip(crossings, is_plane, strict=True):
+            has_wall |= one.types & (not mirrors)
+        counted = [
+            (one, one.types & ~(has_wall & mirrors))
+            for one, mirrors in zip(crossings, is_plane, strict=True)
+        ]
+        # evenly, then each component across a face to that face alone
+        number = np.maximum(np.sum([types for _, types in counted], axis=0), 1)
+        shape = ghost_types.sign.shape
+        shares = {face: np.zeros(shape) for pair in self.faces for face in pair}
+        for one, types in counted:
+            shares[one.face][:, types] = 1.0 / number[types]
+        for one, types in counted:
+            for face, share in shares.items():
+                share[one.axis, types] = float(face == one.face)
+        return shares
+
     def _set_heat(self, rules: GhostRules, crossing: Crossing) -> None:
         """Let the heat condition of a face hold for the types of ghosts beyond it.
 

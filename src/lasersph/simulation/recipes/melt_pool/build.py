@@ -59,18 +59,14 @@ def with_flow(case: Case, settings: MeltPoolSettings, layers: Layers, heat: Cond
         layers=layers.thickness.size,
         weighing=weighing,
     )
-    # What flows stays among the fine columns.
-    box = (*layers.fine_bounds, (-float(layers.thickness.sum()), 0.0))
-    conditions = FaceConditions(
-        box, case.boundaries, case.flow, case.initial_temperature, has_axis=is_section
-    )
+    conditions = face_conditions(case, layers)
 
     # The surface: a line that moves, a flat free one, or none below a lid.
     liquid = liquid_of(case, settings)
     surface: Surface
     support = float(static.support.min())
     if case.surface_moves:
-        line = _surface_line(case, conditions, tuple(map(int, layers.fine_only.columns[:, 0])))
+        line = surface_line(case, layers)
         _raise_particles(case, body, static, line)
         moving = RidingSurface if is_section else MovingSurface
         surface = moving(
@@ -141,7 +137,7 @@ def with_flow(case: Case, settings: MeltPoolSettings, layers: Layers, heat: Cond
 
     # A box starts with the velocity of its case; a block is laid out below its first surface.
     if case.flow is not None:
-        start = case.flow.initial.velocity(filling.position[:, :count], box)
+        start = case.flow.initial.velocity(filling.position[:, :count], conditions.box)
         flow.set_initial_velocity(start)
     pool = RingPool if is_section else MeltPool
     solver = pool(heat, flow, domain, settings, case.pause)
@@ -150,11 +146,25 @@ def with_flow(case: Case, settings: MeltPoolSettings, layers: Layers, heat: Cond
     return solver
 
 
-def _surface_line(case: Case, conditions: FaceConditions, shape: tuple[int, ...]) -> HeightField:
-    """Columns of a surface that moves, of a shape along its axes, at their heights at the start.
+def face_conditions(case: Case, layers: Layers) -> FaceConditions:
+    """Heat and flow at the faces of what may flow, which stays among the fine columns."""
+    box = (*layers.fine_bounds, (-float(layers.thickness.sum()), 0.0))
+    return FaceConditions(
+        box,
+        case.boundaries,
+        case.flow,
+        case.initial_temperature,
+        has_axis=case.geometry.is_axisymmetric,
+    )
+
+
+def surface_line(case: Case, layers: Layers) -> HeightField:
+    """Columns of a surface below which melt flows, at their heights at the start.
 
     It goes on as the flow does beyond its ends; at walls it is pinned at its height there.
     """
+    conditions = face_conditions(case, layers)
+    shape = tuple(map(int, layers.fine_only.columns[:, 0]))
     sides = conditions.box[:-1]
     widths = tuple((high - low) / n for (low, high), n in zip(sides, shape, strict=True))
     kinds: dict[str, End] = {"symmetry": "mirror", "free-slip": "mirror", "periodic": "periodic"}

@@ -7,6 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
+from lasersph.boundaries.flow_conditions import FREE
 from lasersph.compute.backend import Backend
 from lasersph.observers import Observers, flow_observers
 from lasersph.observers.area_relief import AreaRelief
@@ -15,7 +16,7 @@ from lasersph.observers.relief import Relief
 from lasersph.observers.topography import Topography
 from lasersph.observers.view import View
 from lasersph.simulation.recipes.conduction import HeatRecipe
-from lasersph.simulation.recipes.melt_pool.build import with_flow
+from lasersph.simulation.recipes.melt_pool.build import surface_line, with_flow
 from lasersph.simulation.recipes.melt_pool.forecast import flow_forecast, recession_warning
 from lasersph.simulation.recipes.melt_pool.view import flow_view
 from lasersph.simulation.recipes.recipe import FlowForecast, StepForecast
@@ -72,6 +73,8 @@ class MeltPoolRecipe(HeatRecipe[MeltPoolSettings, MeltPool]):
         if isinstance(surface := solver.domain.surface, MovingSurface):
             fields["relief"] = self._relief(surface.line)
             fields["volume"] = fetch(solver.flow.volume)
+        else:
+            fields["columns"] = self.flat_columns
         return View(**fields, **self.evaporated(solver))
 
     def observers(self, iterations: Sequence[str]) -> Observers:
@@ -109,6 +112,15 @@ class MeltPoolRecipe(HeatRecipe[MeltPoolSettings, MeltPool]):
             dimensions=self.settings.dimensions,
             is_section=self.case.geometry.is_axisymmetric,
         )
+
+    @cached_property
+    def flat_columns(self) -> AreaRelief | None:
+        """Columns of a free surface in 3-D that stays flat; None elsewhere."""
+        is_free = self.case.flow is None or self.case.flow.surface.kind in FREE
+        if self.settings.dimensions < 3 or self.case.surface_moves or not is_free:
+            return None
+        found = self._relief(surface_line(self.case, self.layers))
+        return found if isinstance(found, AreaRelief) else None
 
     def _relief(self, line: HeightField) -> Relief | AreaRelief:
         """Heights of a surface that moves, as observers see them."""
