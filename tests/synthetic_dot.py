@@ -12,6 +12,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+from kept_runs import written_once
 
 from lasersph.observers import FlowView, View, flow_observers, snapshot_fields
 from lasersph.observers.area_relief import AreaRelief
@@ -93,6 +94,7 @@ def dot_view(time: float, step: int = 0, *, extent: str = "quarter", columns: in
     return of_whole(view, round(1.0 / np.prod(SHARES[extent])))
 
 
+@written_once
 def make_dot_run(
     folder: Path, *, extent: str = "quarter", columns: int = 40, fluence=3000.0
 ) -> Path:
