@@ -163,7 +163,7 @@ def expected_heating(case: Case, vapor: Vapor | None = None) -> MeltEstimate | N
 
 @dataclass(frozen=True)
 class _Columns:
-    """What an estimate depends on: all of the case that it reads, as text, and its columns."""
+    """Columns of an estimate, and as text all of the case that it reads."""
 
     case: Case = field(compare=False)
     content: str
