@@ -43,7 +43,7 @@ wheel: $(VENV)/.test
 release: check
 	@test -z "$$(git status --porcelain)" || { echo "commit first: the tree has changes" >&2; exit 1; }
 	@mkdir -p dist && $(VENV)/bin/python docs/release_notes.py > dist/notes.md
-	$(VENV)/bin/python -m pytest -m release tests/packaging
+	$(VENV)/bin/python -m pytest -m release
 	$(VENV)/bin/python -m build --outdir dist
 	@echo "dist/ holds wheel, source archive and notes.md; next: git tag v$$($(VENV)/bin/lasersph --version | tr -dc '0-9.')"
 

@@ -11,9 +11,10 @@ SETTINGS = {
     "particles.spacing": "100 nm",
     "time.step": "1 ns",
     "time.end": "60 ns",
+    "output.snapshots.interval": "30 ns",
     "output.checkpoint_every": 5,
 }
-"""Of dlip-steel: 200 steps, a second."""
+"""Of dlip-steel: 130 steps, a second."""
 
 
 def plan_text(fluences, settings=SETTINGS):

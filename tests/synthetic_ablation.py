@@ -10,6 +10,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
+from kept_runs import written_once
 
 from lasersph.observers import AblationView, View, ablation_observers, snapshot_fields
 from lasersph.observers.snapshots import UNITS
@@ -141,6 +142,7 @@ def views(dimension, kind="top-hat"):
         yield view_at(0.5 * NS * step, step, dimension, kind)
 
 
+@written_once
 def make_run(folder: Path, dimension: int, kind: str = "top-hat") -> Path:
     """Write a complete run folder with observers, history, snapshots and summary."""
     case = {

@@ -12,6 +12,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+from kept_runs import written_once
 
 from lasersph.observers import FlowView, View, flow_observers, snapshot_fields
 from lasersph.observers.area_relief import AreaRelief
@@ -99,6 +100,7 @@ def below_lid(view: View) -> View:
     return replace(view, relief=None, columns=columns)
 
 
+@written_once
 def make_dot_run(
     folder: Path, *, extent: str = "quarter", columns: int = 40, fluence=3000.0, moves=True
 ) -> Path:

@@ -15,6 +15,7 @@ from pathlib import Path
 
 import numpy as np
 import synthetic_run
+from kept_runs import written_once
 from synthetic_run import NM, NS, PERIOD
 
 from lasersph.observers import FlowView, View, flow_observers, snapshot_fields
@@ -102,6 +103,7 @@ def liquid_rows(count, spacing=5 * NM) -> View:
     )
 
 
+@written_once
 def make_pool_run(folder: Path, *, complete=True) -> Path:
     """Write a run folder with heat, melting and flow and return its path."""
     return write_run(folder, pool_views(), box=False, end=200 * NS, complete=complete, times=FINE)
@@ -168,6 +170,7 @@ def box_view(time=0.0, step=0, *, count=40, size=1e-3, speed=1.0, wall=(310.0, 2
     )
 
 
+@written_once
 def make_box_run(folder: Path) -> Path:
     """Write the run folder of a box and return its path."""
     views = (

@@ -9,6 +9,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
+from kept_runs import written_once
 
 from lasersph.observers import View, heat_observers, snapshot_fields
 from lasersph.observers.snapshots import UNITS
@@ -112,6 +113,7 @@ def times():
     return np.concatenate([np.arange(0.0, 30.1, 1.0) * NS, fine, np.arange(71.0, 200.1, 1.0) * NS])
 
 
+@written_once
 def make_run(
     folder: Path, *, dimension=2, strength=1.0, fluence=6000.0, complete=True, after_step=None
 ) -> Path:

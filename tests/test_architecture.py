@@ -4,6 +4,7 @@ import ast
 import re
 import subprocess
 import sys
+from functools import cache
 
 import pytest
 from draw_architecture import PACKAGE, fenced_block, imported_modules, room_of
@@ -12,6 +13,12 @@ MODULES = sorted(PACKAGE.rglob("*.py"))
 LAYERS = [room for room, _ in fenced_block("layers")]
 ONLY_IN = {library: set(rooms.split()) for library, rooms in fenced_block("only-in")}
 READS_FILES = {room: set(rooms.split()) for room, rooms in fenced_block("imports-only")}
+
+
+@cache
+def imports_of(path):
+    """Lines and names of what a file imports, wherever in its text."""
+    return tuple(imported_modules(path))
 
 
 def test_layer_list_is_the_folder_list():
@@ -30,7 +37,7 @@ def test_imports_point_down(path):
     """
     room = room_of(path)
     wrong = []
-    for line, name in imported_modules(path):
+    for line, name in imports_of(path):
         top, _, rest = name.partition(".")
         if top != "lasersph" or not room:
             continue
@@ -96,7 +103,7 @@ def test_only_upper_rooms_see_the_case():
     seen = {
         room_of(path)
         for path in MODULES
-        for _, name in imported_modules(path)
+        for _, name in imports_of(path)
         if name == "lasersph.case" or name.startswith("lasersph.case.")
     }
     assert seen - {""} <= upper
@@ -109,7 +116,7 @@ def test_plots_and_reports_compute_nothing(room):
         name.split(".")[1]
         for path in MODULES
         if room_of(path) == room
-        for _, name in imported_modules(path)
+        for _, name in imports_of(path)
         if name.startswith("lasersph.")
     }
     assert found <= READS_FILES[room] | {room}
@@ -121,7 +128,7 @@ def test_library_is_named_in_one_room(library):
     wrong = [
         f"{path}:{line}: {name}"
         for path in MODULES
-        for line, name in imported_modules(path)
+        for line, name in imports_of(path)
         if name.partition(".")[0] == library and room_of(path) not in ONLY_IN[library]
     ]
     assert not wrong, "\n".join(wrong)

@@ -45,7 +45,7 @@ def environment_with(wheel: Path, folder: Path, *arguments: object) -> Path:
     programs = folder / "venv" / "bin"
     run(
         *(sys.executable, "-m", "pip", "--python", programs / "python", "install", "--quiet"),
-        *(*arguments, wheel),
+        *("--no-compile", *arguments, wheel),  # bytecode of what is imported is made then
         cwd=folder,
     )
     return programs

@@ -24,7 +24,7 @@ MOVING = (
     "laser.fluence=2 J/cm^2",
     "laser.pulse.center=25ns",
     "time.end=60ns",
-    "output.snapshots.interval=1ns",
+    "output.snapshots.interval=2ns",
 )
 BESIDE = ("particles.spacing=64nm", "particles.fine_width=3.4um", "domain.width=20um",
           "particles.coarsest=3um", "time.step=200ps", "time.end=28ns")  # fmt: skip

@@ -8,7 +8,7 @@ from reliability_runs import LONGEST_WAIT, wait_until
 
 from lasersph.output import open_run
 
-READS = 300
+READS = 120
 WRITER = """
 import sys
 from pathlib import Path
@@ -47,7 +47,7 @@ def assert_whole(folder):
 
 
 def test_readers_never_meet_half_a_commit(tmp_path):
-    """Some hundred reads beside a writer that commits, dies and is cut back all the time."""
+    """A hundred reads beside a writer that commits, dies and is cut back all the time."""
     folder, stop = tmp_path / "run", tmp_path / "stop"
     command = [sys.executable, "-c", WRITER, str(folder), str(stop)]
     process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)

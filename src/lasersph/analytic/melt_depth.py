@@ -242,26 +242,27 @@ class _Block:
     def _outflow(self, theta: Array) -> Array:
         """Heat leaving each cell up and down [W/m^2]."""
         flow = (theta[:, :-1] - theta[:, 1:]) * self.conductance
-        out = np.zeros_like(theta)
-        out[:, :-1] += flow
-        out[:, 1:] -= flow
+        out = np.empty_like(theta)
+        out[:, 0], out[:, -1] = flow[:, 0], -flow[:, -1]
+        np.subtract(flow[:, 1:], flow[:, :-1], out=out[:, 1:-1])
         return out
 
-    def _lateral_inflow(self, theta: Array) -> Array:
+    def _lateral_inflow(self, theta: Array) -> Array | float:
         """Heat entering each cell from the columns beside it [W/m^2 of surface]."""
+        if self.width is None:
+            return 0.0
         inflow = np.zeros_like(theta)
-        if self.width is not None:
-            flow = np.diff(theta, axis=0) * self.height / self.width**2
-            inflow[:-1] += flow
-            inflow[1:] -= flow
+        flow = np.diff(theta, axis=0) * self.height / self.width**2
+        inflow[:-1] += flow
+        inflow[1:] -= flow
         return inflow
 
-    def _evaporation(self, h: Array, curve: _Curve) -> tuple[Array, Array]:
+    def _evaporation(self, h: Array, curve: _Curve) -> tuple[Array | float, Array | float]:
         """Mass flux (columns,), and power that cells lose by vapor and by the metal that moves up
         through them (columns, cells) [W/m^2]."""
-        lost = np.zeros_like(h)
         if self.vapor is None:
-            return lost[:, 0], lost
+            return 0.0, 0.0
+        lost = np.zeros_like(h)
         m, q = self.vapor(curve.temperature(h[:, 0]))
         lost[:, :-1] = m[:, None] * (h[:, :-1] - h[:, 1:])
         lost[:, 0] += q
@@ -391,10 +392,9 @@ def _fronts(faces: Array, fraction: Array, level: float) -> Array:
     """(columns,) depth of the deepest cell in which the fraction exceeds the level, that cell by
     its share [m]."""
     depths = np.zeros(fraction.shape[0])
-    for number, column in enumerate(fraction):
-        molten = np.flatnonzero(column > level)
-        if molten.size:
-            k = molten[-1]
-            share = 1.0 if level > 0.0 else column[k]
-            depths[number] = faces[k] + share * (faces[k + 1] - faces[k])
+    molten = fraction > level
+    for number in np.flatnonzero(molten.any(axis=1)):
+        k = np.flatnonzero(molten[number])[-1]
+        share = 1.0 if level > 0.0 else fraction[number, k]
+        depths[number] = faces[k] + share * (faces[k + 1] - faces[k])
     return depths

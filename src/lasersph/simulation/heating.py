@@ -7,6 +7,7 @@ surface it takes its heat and its metal along.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -16,7 +17,7 @@ from lasersph.irradiation.light import COLDEST, HOTTEST
 from lasersph.physics.evaporation import saturation_pressure, vapor_constants
 from lasersph.physics.knudsen_layer import outflow_tables
 from lasersph.physics.losses import evaporation_loss
-from lasersph.simulation.layers import expected_heating
+from lasersph.simulation.layers import KEPT_ESTIMATES, expected_heating
 
 TABLE_START = 300.0
 """Lowest temperature of the table of what evaporates [K]. Format: no metal does there."""
@@ -114,9 +115,16 @@ def vapor_of(case: Case) -> Vapor:
     """Mass and heat that leave the surface, of its temperatures."""
     metal = case.material.vaporization
     assert metal is not None
-    constants, (ratio, flux, _) = vapor_constants(metal), outflow_tables()
+    constants = vapor_constants(metal)
+    hottest = min(constants["T_c"], TABLE_END * metal.temperature)
+    return _tabulated(tuple(constants.items()), ambient_pressure(case), hottest)
+
+
+@lru_cache(maxsize=KEPT_ESTIMATES)
+def _tabulated(constants: tuple[tuple[str, float], ...], ambient: float, hottest: float) -> Vapor:
+    """The same of a metal's constants and a pressure [Pa], up to a temperature [K]."""
     # Table of m(T) and q(T), since the estimate asks for them in every cell and step.
-    T = np.linspace(TABLE_START, min(constants["T_c"], TABLE_END * metal.temperature), TABLE_NODES)
-    given = constants | {"p_e": ambient_pressure(case), "ratio_nodes": ratio, "flux_nodes": flux}
+    T, (ratio, flux, _) = np.linspace(TABLE_START, hottest, TABLE_NODES), outflow_tables()
+    given = dict(constants) | {"p_e": ambient, "ratio_nodes": ratio, "flux_nodes": flux}
     heat, _, mass = np.array([evaporation_loss(float(t), **given) for t in T]).T
     return lambda at: (np.interp(at, T, mass), np.interp(at, T, heat))

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass, field
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,6 +31,9 @@ one, the bound only keeps columns narrow in wide blocks."""
 WIDENING = 1.25
 """Radius of a pool over that of the estimate, which leaves out how the flow widens it. Forecast:
 a pool that grows further ends its run with the width to give."""
+KEPT_ESTIMATES = 64
+"""Estimates that a process keeps. Format: those of a study's runs, of which most differ in spacing
+alone; each is some hundred kB."""
 ABSORPTION_LENGTHS = 12.0
 """Depth of the finest layers in units of 1/alpha, at least. Accuracy: exp(-12) = 6e-6 of the light
 goes deeper."""
@@ -156,11 +161,34 @@ def expected_heating(case: Case, vapor: Vapor | None = None) -> MeltEstimate | N
     return _estimate(case, 1, None, vapor)
 
 
+@dataclass(frozen=True)
+class _Columns:
+    """Columns of an estimate, and as text all of the case that it reads."""
+
+    case: Case = field(compare=False)
+    content: str
+    pause: str
+    end: float
+    count: int
+    width: float | None
+    vapor: Vapor | None
+
+
 def _estimate(
     case: Case, columns: int, column_width: float | None, vapor: Vapor | None = None
 ) -> MeltEstimate:
     """Heat of the light in columns from its center outward; one alone has the peak fluence."""
-    laser = case.laser
+    # what a study or a page asks for again differs in nothing that heats the metal
+    content = case.model_dump_json(include={"laser", "material", "initial_temperature", "solver"})
+    end = case.end_of_pulse
+    return _solved(_Columns(case, content, case.pause, end, columns, column_width, vapor))
+
+
+@lru_cache(maxsize=KEPT_ESTIMATES)
+def _solved(given: _Columns) -> MeltEstimate:
+    """The estimate, computed once in a process."""
+    case, laser = given.case, given.case.laser
+    columns, column_width, vapor = given.count, given.width, given.vapor
     assert laser is not None
     # Where pauses are jumped over, each pulse meets metal that is cold again.
     if case.pause != "compute":
@@ -196,7 +224,7 @@ def _estimate(
         reflectivity=reflectivity,
         fluence=fluence,
         delivered=laser.pulse.delivered,
-        end_time=case.end_of_pulse,
+        end_time=given.end,
         column_width=column_width,
         vapor=vapor,
         boiling=_start_of_boiling(curve),

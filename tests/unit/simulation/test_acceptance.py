@@ -53,7 +53,8 @@ def test_too_large_is_refused_alike(case, tmp_path, monkeypatch, capsys):
 
 def test_started_anyway(tmp_path, monkeypatch):
     """The refusal becomes the first warning of the run."""
-    case = lasersph.load_case("stefan", ["particles.spacing=4 um"])
+    short = ["particles.spacing=4 um", "time.step=5 ns", "time.end=50 ns"]
+    case = lasersph.load_case("stefan", short)
     monkeypatch.setattr(size_module, "machine_memory", lambda: ONE_MIB)
     result = lasersph.run(case, tmp_path / "run", anyway=True, warn=None)
     assert "of memory, but this machine has" in result.summary["warnings"][0]
