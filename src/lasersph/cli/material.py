@@ -84,7 +84,8 @@ def check(name: Name, plot: Plot = None) -> None:
     rows = [(found.level, found.subject, found.text) for found in findings]
     print(text_table(rows, ("level", "subject", "what")))
     warnings = sum(found.level == "warning" for found in findings)
-    print(f"{material.name}: {warnings} warnings" if warnings else f"{material.name}: no warnings")
+    number = f"{warnings or 'no'} warning{'' if warnings == 1 else 's'}"
+    print(f"{material.name}: {number}")
 
 
 def _draw(material: Material, file: Path) -> None:

@@ -81,6 +81,16 @@ def test_bad_overrides_name_themselves(setting, message):
     assert str(error.value).startswith(message)
 
 
+def test_a_misspelt_table_of_an_override_is_all_that_is_said():
+    """The keys that the file gives in the right table are not missed."""
+    with pytest.raises(CaseError) as error:
+        load_case("dlip-steel", ["laser.puls.fwhm=8ns"])
+    (line,) = str(error.value).splitlines()
+    assert line.startswith(
+        '--set laser.puls.fwhm=8ns: laser.puls: unknown key; do you mean "pulse"?'
+    )
+
+
 def test_an_override_sets_one_key_only():
     """A line break in a value does not smuggle in a second key."""
     assert load_case("dlip-steel", ["title=1\nsolver.dimensions = 3"]).solver.dimensions == 2
