@@ -116,10 +116,10 @@ class Killer:
         self.cluster.start_workers()  # in place of those that lost their nanny
 
 
-@pytest.mark.parametrize("kills", [["worker", "nanny", "run"], ["scheduler"] * 2])
+@pytest.mark.parametrize("kills", [["worker", "nanny", "run"] * 2, ["scheduler"] * 2])
 def test_killed(cluster, plan, undisturbed, tmp_path, kills):
-    """A Dask worker, its nanny and the process of a run die by SIGKILL in the middle of runs, and
-    the scheduler twice; the driver goes on with what takes their place."""
+    """A Dask worker, its nanny, the process of a run and the scheduler die twice each by SIGKILL,
+    in the middle of runs; the driver goes on with what takes their place."""
     cluster.start_workers()
     killer = Killer(cluster, *kills)
     # a run that dies again at its first step has no later checkpoint: allow for all kills

@@ -13,10 +13,18 @@ TRAIN = (
 )  # fmt: skip
 
 
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory):
+    """The case, and the folder of its run from begin to end."""
+    folder = tmp_path_factory.mktemp("train")
+    case = case_of(folder, *GOLD, *TRAIN)
+    run(case, folder / "whole", threads=2, warn=None)
+    return case, folder / "whole"
+
+
 @pytest.mark.parametrize("steps", [3, 60])
-def test_stopped_and_resumed(tmp_path, steps):
+def test_stopped_and_resumed(whole, tmp_path, steps):
     """Stopped under the light and after the hand-over, with a pulse still to come."""
-    case = case_of(tmp_path, *GOLD, *TRAIN)
-    run(case, tmp_path / "whole", threads=2, warn=None)
+    case, folder = whole
     stop_and_resume(case, tmp_path / "run", steps)
-    assert_same(tmp_path / "run", tmp_path / "whole")
+    assert_same(tmp_path / "run", folder)
