@@ -37,6 +37,19 @@ from lasersph.surface.columns import product
 from lasersph.surface.surface import Surface
 
 
+def depth_of_fluid(x, fluid):
+    """Depth of a fluid particle below z = 0 [m]; far above it where it is none."""
+    return -x[-1] if fluid > 0.0 else -1.0
+
+
+def within_reach(x, finest, any, reach, finest_reach, melt_depth):
+    """1 where a particle may have a fluid neighbor: by the cells of the finest, or of all and not
+    deeper below the melt than it sees [m]."""
+    if reach <= finest_reach:
+        return finest
+    return any if -x[-1] - melt_depth < reach else 0.0 * any
+
+
 class Block:
     """Particles 0 ... count - 1 with their ghosts and pairs.
 
@@ -107,6 +120,13 @@ class Block:
         self._even_above = near - fine_depth
         repeats = [period > 0.0 for period in conditions.periods]
         self._near_melt = NearMelt(backend, count, self._bounds, near, repeats=repeats)
+        # coarse layers see further than the finest, which have cells of their own
+        finest = SKIN * self.layers.moving_support
+        self._near_finest = self._near_melt
+        if finest < near:
+            self._near_finest = NearMelt(backend, count, self._bounds, finest, repeats=repeats)
+        self._reach = backend.asarray(self.layers.reach_of_melt)
+        self._finest_reach = finest
 
         # pairs, of which there are none yet
         dimension, nothing = self.ghosts.dimension, backend.zeros(0, "index")
@@ -273,7 +293,18 @@ class Block:
         Raises:
             EscapedParticle: a position is not finite or beyond the faces.
         """
-        return self._near_melt.find(position, fluid)
+        near = self._near_finest.find(position, fluid)
+        if self._near_finest is self._near_melt:
+            return near
+        # coarse rows are near where the deepest melt is, too
+        head = self.backend.head
+        fields = {"x": head(position, self.count), "fluid": head(fluid, self.count)}
+        (depth,) = self.backend.pointwise(depth_of_fluid, fields, (None,), reduce=("max",))
+        fields |= {"finest": near, "any": self._near_melt.find(position, fluid)}
+        fields["reach"] = self._reach
+        ends = {"finest_reach": self._finest_reach, "melt_depth": depth}
+        self.backend.pointwise(within_reach, fields, near, **ends)
+        return near
 
     def smallest_distance(self, position: Array, rows: Rows) -> tuple[float, ...]:
         """Square of the smallest distance from one of `rows` to another particle or ghost [m^2]."""

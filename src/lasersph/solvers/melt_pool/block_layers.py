@@ -55,7 +55,8 @@ class BlockLayers:
     Attributes:
         moving_support: of the particles that move, the finest [m]. search_radius: largest [m].
         mean: support radius of a pair from those of both. radius: (count,) within which each
-            particle finds neighbors [m]. fields: (M,) of particles and ghosts, by the names that
+            particle finds neighbors [m]. reach_of_melt: (count,) host array, within which it finds
+            those that move [m]. fields: (M,) of particles and ghosts, by the names that
             pair functions use; V and support are among them.
     """
 
@@ -74,6 +75,11 @@ class BlockLayers:
         is_even = self.moving_support == self.largest_support
         self.mean: Callable[[float, float], float] = common if is_even else lattice.weighing.mean
         self.radius = backend.asarray(SKIN * support)
+        # how far each particle sees those that move, by the few supports that there are
+        sizes, place = np.unique(support, return_inverse=True)
+        mean = lattice.weighing.mean
+        reaches = [SKIN * float(mean(self.moving_support, float(size))) for size in sizes]
+        self.reach_of_melt = np.array(reaches)[place]
         self.fields: dict[str, Array] = {}
         # layers, and the factors N and a, of the particles
         layer, last = lattice.layer[:count], lattice.layers - 1

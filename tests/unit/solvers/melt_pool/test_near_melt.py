@@ -2,8 +2,10 @@
 
 import numpy as np
 import pytest
+from flow_boxes import block_of, place_of, pool
 
 from lasersph.compute.search import EscapedParticle
+from lasersph.solvers.melt_pool.block import depth_of_fluid, within_reach
 from lasersph.solvers.melt_pool.near_melt import NearMelt
 
 BOUNDS = ((0.0, 9.0), (-1.0, 0.0))
@@ -79,3 +81,29 @@ def test_radius_on_a_line_and_in_space(backend, dimension, is_periodic):
     assert near[(np.linalg.norm(apart, axis=0) < RADIUS).any(axis=1)].all()
     assert not near[(apart.max(axis=0) > 2.5 * RADIUS).all(axis=1)].any()
     assert near[fluid].all() and not near.all()
+
+
+def test_depth_and_reach_by_hand():
+    """The finest by their own cells; coarse ones down to what they see below the deepest melt."""
+    assert depth_of_fluid(np.array([0.5, -0.3]), 1.0) == 0.3
+    assert depth_of_fluid(np.array([0.5, -0.3]), 0.0) == -1.0
+    given = {"finest": 0.0, "any": 1.0, "finest_reach": 0.2, "melt_depth": 0.3}
+    for depth, reach, expected in ((0.4, 0.2, 0.0), (0.6, 0.4, 1.0), (0.8, 0.4, 0.0)):
+        assert within_reach(np.array([0.5, -depth]), reach=reach, **given) == expected
+
+
+def test_rows_of_graded_layers():
+    """Whoever has a fluid particle within the support of the pair is found; deeper ones are not."""
+    solver = pool(lambda x, z: (np.abs(x) < 6e-7) & (z > -4e-7))
+    block = block_of(solver)
+    host, fluid = solver.backend.to_host, solver.kinds.fluid
+    near = host(block.find_near_fluid(solver.position, fluid)) > 0.0
+    place, reach = place_of(solver)[:, : block.count], block.layers.reach_of_melt
+    flows = host(fluid)[: block.count] > 0.0
+    apart = np.linalg.norm(place[:, :, None] - place[:, None, flows], axis=0)
+    assert flows.any() and near[(apart < reach[:, None]).any(axis=1)].all()
+    is_coarse = reach > reach.min()
+    deep = place[1] < place[1, flows].min() - reach
+    assert is_coarse.any() and not near[is_coarse & deep].any()
+    aside = np.abs(place[0]) > np.abs(place[0, flows]).max() + 2.7 * reach.min()
+    assert not near[~is_coarse & aside].any() and (~is_coarse & aside).any()
