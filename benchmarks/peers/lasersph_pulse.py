@@ -53,7 +53,7 @@ step_error = {step_error}
 phase_change = false
 [time]
 end = "{end} s"
-growth = 2
+growth = 4
 """
 DENSITY = 1000.0
 """Of the metal [kg/m^3]; only heats per volume matter."""

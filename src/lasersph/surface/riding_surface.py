@@ -74,6 +74,7 @@ class RidingSurface(MovingSurface):
     loss_shares = (1.0, 0.0)
     row_heights = (1.0, 1.0)
     """Least and largest height of a row that flows, in spacings."""
+    _ridden: Ride | None = None
 
     def find(self, position: Array) -> None:
         """Set marks, depths and ghosts; one particle of a column lies at the surface, however low
@@ -94,7 +95,9 @@ class RidingSurface(MovingSurface):
         ratio = np.where(moves, (line.height - base) / np.where(moves, melt, 1.0), 1.0)
 
         # particles and what they stand for
-        found = Ride(backend.zeros(now.position.shape), backend.zeros(n))
+        if self._ridden is None or self._ridden.growth.shape != now.volume.shape:
+            self._ridden = Ride(backend.zeros(now.position.shape), backend.zeros(n))
+        found = self._ridden
         fields = {"i": backend.asarray(np.arange(n), "index"), "x": now.position, "V": now.volume}
         fields |= {"m": now.mass, "flows": now.flows}
         tables: Constants = {"base": backend.asarray(base), "ratio": backend.asarray(ratio)}

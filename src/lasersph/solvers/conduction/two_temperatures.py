@@ -130,10 +130,10 @@ class TwoTemperatures(Conduction):
 
     def update_temperature(self) -> tuple[float]:
         """Temperatures and fractions; returns the largest change of the lattice's [K]."""
-        if not self.state.has_two:
-            self.state.difference = 0.0
-            return super().update_temperature()
-        change, self.state.difference = self.update_both()
+        if self.state.has_two:
+            change, self.state.difference = self.update_both()
+        else:
+            (change,), self.state.difference = super().update_temperature(), 0.0
         return (change,)
 
     @graph

@@ -47,11 +47,19 @@ class Rings(Block):
         """Distances from the axis of rings and ghosts [m], those of their sources."""
         return {"r": self._radii}
 
+    def _renewed(self, before: Array, values: Array) -> Array:
+        """Values in the place of those before, if there are as many: loops are bound to that."""
+        if before is self._lengths or before.shape != values.shape:
+            return values
+        self.backend.copy(values, before)
+        return before
+
     def _adapt_weights(self, position: Array) -> None:
         """Weights of rings: those of the plane times their mean length, none across the axis."""
         super()._adapt_weights(position)
-        self.measure, self._radii = self.gather(self._lengths), self.gather(self._radius)
-        self.tangents = self.ghosts.of_type(self._tangents)
+        self.measure = self._renewed(self.measure, self.gather(self._lengths))
+        self._radii = self._renewed(self._radii, self.gather(self._radius))
+        self.tangents = self._renewed(self.tangents, self.ghosts.of_type(self._tangents))
         fields = {"g_ij": self.weights, "measure": self.measure}
         self.backend.pair_values(
             ring_weight_off_axis, self.pairs, fields, self.weights, rows=self.rows
