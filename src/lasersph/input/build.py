@@ -156,9 +156,10 @@ class _Trial:
         if table is None or not self._remove(path):
             return False
         # A table of some keys, as overrides write it, joins the one that is there.
-        there = table.get(target[-1]) if isinstance(table, dict) else None
-        joins = isinstance(there, dict) and isinstance(value, dict)
-        table[target[-1]] = {**there, **value} if joins else value
+        there = self.document.at(target)
+        if isinstance(there, dict) and isinstance(value, dict):
+            value = {**there, **value}
+        table[target[-1]] = value
         # A key that moved keeps its line.
         for key, line in self.document.lines.copy().items():
             if key[: len(path)] == path:

@@ -55,7 +55,8 @@ def flow_cell_map(run: RunOrFolder, time: float | None = None) -> Figure | None:
     section = MAP_WIDTH * shape + 0.75
     heights = [section, HISTORY_HEIGHT, HISTORY_HEIGHT + 0.3]
     figure, (above, *below) = style.new_figure(3, height=sum(heights))
-    above.get_gridspec().set_height_ratios(heights)
+    if (grid := above.get_gridspec()) is not None:
+        grid.set_height_ratios(heights)
     unit = frame_unit(frame)
     draw_cells(above, flow, raster(flow, frame), unit)
     draw_streamlines(above, flow, frame, unit, color="black", density=1.2)

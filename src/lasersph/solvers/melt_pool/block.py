@@ -302,8 +302,9 @@ class Block:
         (depth,) = self.backend.pointwise(depth_of_fluid, fields, (None,), reduce=("max",))
         fields |= {"finest": near, "any": self._near_melt.find(position, fluid)}
         fields["reach"] = self._reach
-        ends = {"finest_reach": self._finest_reach, "melt_depth": depth}
-        self.backend.pointwise(within_reach, fields, near, **ends)
+        self.backend.pointwise(
+            within_reach, fields, near, finest_reach=self._finest_reach, melt_depth=depth
+        )
         return near
 
     def smallest_distance(self, position: Array, rows: Rows) -> tuple[float, ...]:
