@@ -64,6 +64,15 @@ class Document:
         return value
 
 
+def _file_alike(path: Path) -> str:
+    """' (do you mean "brass.toml"?)' where a TOML file of the folder is spelt alike, or nothing."""
+    import difflib  # only this message needs it
+
+    names = [one.name for one in path.parent.glob("*.toml")] if path.parent.is_dir() else []
+    near = difflib.get_close_matches(path.name, names, n=1)
+    return f' (do you mean "{near[0]}"?)' if near else ""
+
+
 def read_toml(file: str | Path, *, tolerant: bool = False) -> Document:
     """Read a TOML file; `tolerant` as in `parse_toml`.
 
@@ -76,7 +85,7 @@ def read_toml(file: str | Path, *, tolerant: bool = False) -> Document:
         if path.is_dir():
             raise CaseError("is a folder, not a file", file=str(file))
         if not path.is_file():
-            raise CaseError("no such file", file=str(file))
+            raise CaseError("no such file" + _file_alike(path), file=str(file))
         if path.stat().st_size > LARGEST_FILE:
             raise CaseError("larger than 16 MiB, so hardly a case or material", file=str(file))
         raw = path.read_bytes()

@@ -52,6 +52,11 @@ def difference_rows(content: dict[str, Any]) -> list[list[str]]:
         "noise from point to point": found["noise_m"],
         "interpolation between cells": found["interpolation_m"],
     }
+    heights = content["peak_to_valley"]
+    shown |= {
+        "peak to valley of the measured heights": heights["measured_m"],
+        "peak to valley of the computed heights there": heights["computed_m"],
+    }
     rows = [[words, format_quantity(value, "m", 3)] for words, value in shown.items()]
     text = f"{factor['value']:.4g} +- {factor['standard_error']:.2g}"
     return [*rows, ["measured over computed heights", text]]

@@ -146,6 +146,11 @@ def test_files_that_cannot_be_read(tmp_path):
     """Missing file, folder and oversized file are refused before they are read."""
     with pytest.raises(CaseError, match="no such file"):
         read_toml(tmp_path / "none.toml")
+    (tmp_path / "brass.toml").write_text("")
+    with pytest.raises(
+        CaseError, match=r'bras\.toml: no such file \(do you mean "brass.toml"\?\)$'
+    ):
+        read_toml(tmp_path / "bras.toml")
     with pytest.raises(CaseError, match="is a folder"):
         read_toml(tmp_path)
     big = tmp_path / "big.toml"

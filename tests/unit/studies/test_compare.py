@@ -56,6 +56,8 @@ def test_hidden_factor(ours):
         assert found.noise == pytest.approx(5 * NM, rel=0.15)
         assert found.height_factor[0] == pytest.approx(1.0, abs=4.0 * found.height_factor[1])
         assert "no more than noise" in comparing.sentence(found)
+        heights = comparing.answer(found)["peak_to_valley"]
+        assert heights == {"measured_m": np.ptp(found.measured), "computed_m": np.ptp(found.ours)}
 
 
 def test_map(ours):

@@ -309,6 +309,10 @@ def answer(found: Comparison) -> dict[str, Any]:
             "correlation_points": found.tau,
         },
         "height_factor": dict(zip(("value", "standard_error"), found.height_factor, strict=True)),
+        "peak_to_valley": {
+            "measured_m": float(np.ptp(found.measured)),
+            "computed_m": float(np.ptp(found.ours)),
+        },
         "largest_ours_m": float(np.max(np.abs(found.ours))),
         "sentence": sentence(found),
     }
