@@ -148,7 +148,7 @@ class Topography(Observer):
         Quantity("topography.rim_x_m", "m", "place of the surface's highest point"),
         Quantity("topography.lowest_y_m", "m", "place of the surface's lowest point along y"),
         Quantity("topography.rim_y_m", "m", "place of the surface's highest point along y"),
-        Quantity("topography.shape", "", "shape of the relief of a spot"),
+        Quantity("topography.shape", "", "shape of the relief of a spot", is_main=True),
         Quantity(
             "topography.after_pulses_m", "m", "peak to valley after each pulse before a pause"
         ),
