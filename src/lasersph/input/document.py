@@ -68,9 +68,9 @@ def _file_alike(path: Path) -> str:
     """' (do you mean "brass.toml"?)' where a TOML file of the folder is spelt alike, or nothing."""
     import difflib  # only this message needs it
 
-    names = [one.name for one in path.parent.glob("*.toml")] if path.parent.is_dir() else []
-    near = difflib.get_close_matches(path.name, names, n=1)
-    return f' (do you mean "{near[0]}"?)' if near else ""
+    names = [one.stem for one in path.parent.glob("*.toml")] if path.parent.is_dir() else []
+    near = difflib.get_close_matches(path.stem, names, n=1)
+    return f' (do you mean "{near[0]}.toml"?)' if near else ""
 
 
 def read_toml(file: str | Path, *, tolerant: bool = False) -> Document:
