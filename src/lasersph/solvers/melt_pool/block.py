@@ -42,12 +42,10 @@ def depth_of_fluid(x, fluid):
     return -x[-1] if fluid > 0.0 else -1.0
 
 
-def within_reach(x, finest, any, reach, finest_reach, melt_depth):
-    """1 where a particle may have a fluid neighbor: by the cells of the finest, or of all and not
-    deeper below the melt than it sees [m]."""
-    if reach <= finest_reach:
-        return finest
-    return any if -x[-1] - melt_depth < reach else 0.0 * any
+def within_reach(x, near, reach, melt_depth):
+    """1 where a particle may have a fluid neighbor: near one by the cells, and not deeper below the
+    melt than it sees [m], with a fifth more than that for what moves in a step."""
+    return near if -x[-1] - melt_depth < 1.2 * reach else 0.0 * near
 
 
 class Block:
@@ -120,13 +118,9 @@ class Block:
         self._even_above = near - fine_depth
         repeats = [period > 0.0 for period in conditions.periods]
         self._near_melt = NearMelt(backend, count, self._bounds, near, repeats=repeats)
-        # coarse layers see further than the finest, which have cells of their own
-        finest = SKIN * self.layers.moving_support
-        self._near_finest = self._near_melt
-        if finest < near:
-            self._near_finest = NearMelt(backend, count, self._bounds, finest, repeats=repeats)
+        # fine layers see less far below the melt than the coarsest, for which the cells are made
         self._reach = backend.asarray(self.layers.reach_of_melt)
-        self._finest_reach = finest
+        self._is_graded = SKIN * self.layers.moving_support < near
 
         # pairs, of which there are none yet
         dimension, nothing = self.ghosts.dimension, backend.zeros(0, "index")
@@ -293,18 +287,15 @@ class Block:
         Raises:
             EscapedParticle: a position is not finite or beyond the faces.
         """
-        near = self._near_finest.find(position, fluid)
-        if self._near_finest is self._near_melt:
+        near = self._near_melt.find(position, fluid)
+        if not self._is_graded:
             return near
-        # coarse rows are near where the deepest melt is, too
+        # rows deeper below the deepest melt than they see are not
         head = self.backend.head
         fields = {"x": head(position, self.count), "fluid": head(fluid, self.count)}
         (depth,) = self.backend.pointwise(depth_of_fluid, fields, (None,), reduce=("max",))
-        fields |= {"finest": near, "any": self._near_melt.find(position, fluid)}
-        fields["reach"] = self._reach
-        self.backend.pointwise(
-            within_reach, fields, near, finest_reach=self._finest_reach, melt_depth=depth
-        )
+        fields |= {"near": near, "reach": self._reach}
+        self.backend.pointwise(within_reach, fields, near, melt_depth=depth)
         return near
 
     def smallest_distance(self, position: Array, rows: Rows) -> tuple[float, ...]:
