@@ -1,7 +1,7 @@
 """Functions of arrays and whole numbers, compiled, stored and called as loops are.
 
 What is no loop over rows with a formula, such as the scan for neighbors, is a text with functions
-of Numba's language. One of them is called for each of some blocks, with the number of the block
+as `native_functions` understands them. One of them is called for each of some blocks, with the number of the block
 first; its arrays and numbers stand in a frame, as those of a launch do.
 """
 
@@ -15,7 +15,7 @@ import numpy as np
 
 from lasersph.compute import cache
 from lasersph.compute.arguments import address
-from lasersph.compute.generate import DISPATCH, NATIVE
+from lasersph.compute.generate import NATIVE
 from lasersph.compute.launch import HEAD_WORDS, start_function
 
 
@@ -23,8 +23,8 @@ class ArrayFunction:
     """A function of a text.
 
     Args:
-        text: functions, each with the decorator `generate.INNER`. name: of the one to call, which
-            takes the number of a block and any arrays and whole numbers.
+        text: functions. name: of the one to call, which takes the number of a block and any
+            arrays and whole numbers.
         precision: of `real` in the text.
     """
 
@@ -71,7 +71,7 @@ class ArrayFunction:
     def _loop(self, given: tuple) -> str:
         """Text of the loop that takes such arguments from a frame."""
         # words in the order of `frame`
-        arguments, place = ["begin"], 0
+        arguments, place = ["block"], 0
         for one in given:
             if not isinstance(one, np.ndarray):
                 arguments.append(f"words[{place}]")
@@ -80,9 +80,8 @@ class ArrayFunction:
             shape = "".join(f"np.int64(words[{place + k + 1}]), " for k in range(one.ndim))
             arguments.append(f"carray(at_{one.dtype.name}(words[{place}]), ({shape}))")
             place += one.ndim + 1
-        # several blocks are handed to threads, one is done here
-        lines = [*DISPATCH, "words = at_uint64(frame)", f"{self._name}({', '.join(arguments)})"]
-        head = "\n\nONE = np.uint64(1)\n\n\ndef loop(begin, end, threads, count, frame):"
+        lines = ["words = at_uint64(frame)", f"{self._name}({', '.join(arguments)})"]
+        head = "\n\ndef loop(block, count, frame):"
         return "\n    ".join([head, *lines]) + "\n"
 
 

@@ -1,9 +1,9 @@
-"""Folder of generated loops: one Python file per loop, named by the hash of its whole text.
+"""Folder of generated loops: one text file per loop, named by the hash of its whole text.
 
-The text holds every function, constant and option that the loop's result depends on but what the
-files `SHARED` give it, whose text enters the hash, so a file never goes stale: an edit gives
-another name. The machine code of a loop lies beside it; that of kernels of a graphics card is kept
-by Numba in `__pycache__`. The folder is $LASERSPH_CACHE, else $XDG_CACHE_HOME/lasersph, else
+The text holds every function, constant and option that the loop's result depends on; what
+translates it (`SHARED`) enters the hash, so a file never goes stale: an edit gives another name.
+The machine code of a loop lies beside it; that of kernels of a graphics card is kept by Numba in
+`__pycache__`. The folder is $LASERSPH_CACHE, else $XDG_CACHE_HOME/lasersph, else
 ~/.cache/lasersph, else, where that is not writable, a folder of this
 user below the system's temporary folder.
 """
@@ -27,25 +27,21 @@ from typing import Any, NamedTuple
 from lasersph.compute import machine_code, numba_internals, trial
 from lasersph.compute.compile_lock import compiling_alone
 from lasersph.compute.compiling import reported
-from lasersph.compute.generate import DISPATCH
-from lasersph.compute.numba_internals import Part
 
 _PREFIX = "loop_"
-SHARED = ("parallel.py", "native.py", "machine_code.py", "numba_internals.py")
+SHARED = (
+    "machine_code.py",
+    "native_calls.py",
+    "native_code.py",
+    "native_functions.py",
+    "native_text.py",
+    "native_values.py",
+)
 _UNSTORED = re.compile(r"(, )?cache=True")
-_SHARES = {
-    "from lasersph.compute.parallel import dispatch_blocks\n": (
-        "from lasersph.compute.parallel import invoke\n"
-    ),
-    "    " + "\n    ".join(DISPATCH) + "\n": "",
-}
-"""Lines by which a loop hands its blocks to Numba's threads, and those of who calls it instead."""
 _SPARE = 1 << 20
 """Bytes that the folder must take before Numba stores machine code there by itself."""
 _loaded: dict[str, ModuleType] = {}
 _entries: dict[str, Entry] = {}
-_callbacks: dict[str, Any] = {}
-"""Owners of the machine code of functions that Numba itself has stored."""
 _first_miss: list[Callable[[], None]] = []
 
 
@@ -118,24 +114,6 @@ def load(text: str) -> ModuleType:
     return module
 
 
-def _known(text: str, folder: Path) -> str:
-    """The text by what this Numba has of the parts that it does not document."""
-    # each part that is missing is replaced by the public way
-    numba_internals.check(lambda part: trial.passes(folder, part))
-    if not numba_internals.has(Part.WRAPPERS):
-        text = numba_internals.with_public_options(text)
-    if not numba_internals.has(Part.THREADS):
-        text = shared_text(text)
-    return text
-
-
-def shared_text(text: str) -> str:
-    """The text of a loop that does one block, whose blocks `parallel.invoke` shares."""
-    for old, new in _SHARES.items():
-        text = text.replace(old, new)
-    return text
-
-
 def entry(text: str, *, is_fast: bool = True) -> int:
     """Address of the function `loop` of a text, compiled where the folder has no machine code.
 
@@ -143,12 +121,12 @@ def entry(text: str, *, is_fast: bool = True) -> int:
         is_fast: whether its sums may be rearranged.
     """
     folder = location()
-    text = _known(text, folder)
+    numba_internals.check_entry(lambda: trial.passes(folder))
     name = f"{_PREFIX}{_digest(text)}"
     key = f"{folder}/{name}"
     if key not in _entries:
         # look on disk first, then compile
-        found = _read_entry(folder, name, text, is_fast)
+        found = _read_entry(folder, name)
         _entries[key] = found or _missing_entry(folder, name, text, is_fast)
     return _entries[key].address
 
@@ -167,11 +145,10 @@ def at_first_miss(begin: Callable[[], None]) -> Callable[[], None]:
 def compile_ahead(text: str) -> None:
     """Put the function of a text into the folder, unless it lies there or is being compiled."""
     folder = location()
-    text = _known(text, folder)
     name = f"{_PREFIX}{_digest(text)}"
     with compiling_alone(folder, _digest(text), waits=False) as is_ours:
         if is_ours and not _code_file(folder, name).is_file():
-            _make_entry(folder, name, text, is_fast=True)
+            _put_code(folder, name, text, is_fast=True)
 
 
 def _missing_entry(folder: Path, name: str, text: str, is_fast: bool) -> Entry:
@@ -181,65 +158,41 @@ def _missing_entry(folder: Path, name: str, text: str, is_fast: bool) -> Entry:
         _first_miss.pop()()
     # another process may have compiled it while this one waited for the lock
     with reported(), compiling_alone(folder, name.removeprefix(_PREFIX)):
-        found = _read_entry(folder, name, text, is_fast)
+        found = _read_entry(folder, name)
         return found or _make_entry(folder, name, text, is_fast)
 
 
 def _code_file(folder: Path, name: str) -> Path:
-    """Where the machine code of a function for this processor lies; where Numba itself keeps it, an
-    empty file that tells so."""
-    end = "o" if numba_internals.keeps_object_files() else "numba"
-    return folder / f"{name}-{machine_code.target()}.{end}"
+    """Where the machine code of a function for this processor lies."""
+    return folder / f"{name}-{machine_code.target()}.o"
 
 
-def _read_entry(folder: Path, name: str, text: str, is_fast: bool) -> Entry | None:
+def _read_entry(folder: Path, name: str) -> Entry | None:
     """The function whose machine code lies in the folder; None where there is none."""
     try:
         content = _code_file(folder, name).read_bytes()
     except OSError:
         return None
-    if numba_internals.keeps_object_files():
-        try:
-            # load the object file into this process
-            address = machine_code.address_of(content, name)
-        except Exception as error:
-            numba_internals.lose(Part.MACHINE_CODE, error)
-            return None
-    else:
-        # only a mark lies there; Numba loads its own cached code
-        address = _callback_address(folder, name, text, is_fast)
+    address = machine_code.address_of(content, name)
     return None if address is None else Entry(address, True)
 
 
 def _make_entry(folder: Path, name: str, text: str, is_fast: bool) -> Entry:
     """The function of a text, with its text and machine code written to the folder."""
-    # compile to an object file where this Numba allows it
-    address, content, failed = None, b"", None
-    if numba_internals.keeps_object_files():
-        function = _function_of(folder, name, text)
-        try:
-            content = machine_code.compile_function(function, name, is_fast=is_fast)
-            address = machine_code.address_of(content, name)
-        except Exception as error:  # of Numba's parts, or of the function, which fails again
-            failed = error
-    # else by the public way, where the file on disk is only a mark
-    if address is None:
-        content, address = b"", _callback_address(folder, name, text, is_fast)
-    # the public way worked: the fault was of Numba's part, which is given up
-    if failed:
-        numba_internals.lose(Part.MACHINE_CODE, failed)
+    address = machine_code.address_of(_put_code(folder, name, text, is_fast), name)
+    assert address is not None
+    return Entry(address, False)
+
+
+def _put_code(folder: Path, name: str, text: str, is_fast: bool) -> bytes:
+    """Write the text and machine code of a function to the folder, as far as that takes them."""
+    content = machine_code.compile_text(text, name, is_fast=is_fast)
     try:
-        # keep both for other processes, which find the code by the hash of the text
         _put_text(folder / f"{name}.py", text)
         _write(_code_file(folder, name), content)
     except OSError as error:
         _warn(error)
-    return Entry(address, False)
-
-
-def _function_of(folder: Path, name: str, text: str) -> Callable[..., None]:
-    """The function `loop` of a text, not compiled; its module is found by what Numba has stored."""
-    return _executed(f"lasersph_{name}", folder / f"{name}.py", text).loop
+    return content
 
 
 def _executed(name: str, path: Path, text: str) -> ModuleType:
@@ -249,22 +202,6 @@ def _executed(name: str, path: Path, text: str) -> ModuleType:
     return module
 
 
-def _callback_address(folder: Path, name: str, text: str, is_fast: bool) -> int:
-    """Address of a function that Numba compiles and stores beside its text."""
-    try:
-        _put_text(folder / f"{name}.py", text)
-        _refuse_full(folder)
-        stores = True
-    except OSError as error:
-        _warn(error)
-        stores = False
-    callback = numba_internals.compiled_callback(
-        _function_of(folder, name, text), name, is_fast=is_fast, stores=stores
-    )
-    _callbacks[f"{folder}/{name}"] = callback
-    return callback.address
-
-
 def _digest(text: str) -> str:
     """Name of a text."""
     return hashlib.sha256(_shared() + text.encode()).hexdigest()[:24]
@@ -272,7 +209,7 @@ def _digest(text: str) -> str:
 
 @cache
 def _shared() -> bytes:
-    """Text of what loops call and do not hold."""
+    """Text of what translates loops."""
     return b"".join(Path(__file__).with_name(name).read_bytes() for name in SHARED)
 
 
@@ -324,7 +261,7 @@ def files() -> list[Path]:
 def _all_files() -> list[Path]:
     folder = location()
     inner = (folder / "__pycache__").glob(f"{_PREFIX}*")
-    ends = (f"{_PREFIX}*.py", f"{_PREFIX}*.o", f"{_PREFIX}*.numba", f"{trial.PREFIX}*", "*.tmp")
+    ends = (f"{_PREFIX}*.py", f"{_PREFIX}*.o", f"{trial.PREFIX}*", "*.tmp")
     return [*(path for end in ends for path in folder.glob(end)), *inner]
 
 

@@ -8,6 +8,7 @@ function.
 
 from __future__ import annotations
 
+import ast
 import inspect
 from array import array
 from collections.abc import Callable, Sequence
@@ -21,7 +22,6 @@ from lasersph.compute.launch import RUN, Launch, list_function
 HEAD = 3
 """Words of a step before the addresses of its launches."""
 _TEXT = '''
-@njit
 def run_step(step, number):
     """Run the launches of the step at an address, with a number for those that have it."""
     words = at_uint64(step)
@@ -32,21 +32,17 @@ def run_step(step, number):
         run(words[np.uint64(3) + k])
 
 
-@njit
 def reduction(step, k):
     """Number k of those that the last launch of a step has reduced."""
     return at_float64(at_uint64(step)[2])[np.uint64(k)]
 
 
-@njit
 {function}
 
 def loop(frame):
     words = at_uint64(frame)
     numbers = at_float64(words[{steps}])
-    results = {name}({arguments})
-    for k in range(len(results)):
-        numbers[np.uint64(k)] = results[k]
+    {results} = {name}({arguments})
 '''
 
 
@@ -155,11 +151,15 @@ def _compiled(function: Any, steps: int, precision: str) -> Callable[[int], None
     # steps are addresses, the other arguments numbers
     count = function.__code__.co_argcount
     given = [f"words[{k}]" for k in range(steps)] + [f"numbers[{k}]" for k in range(count - steps)]
+    source = inspect.getsource(function)
+    returned = next(node.value for node in ast.walk(ast.parse(source)) if type(node) is ast.Return)
+    assert isinstance(returned, ast.Tuple)
     text = (NATIVE + RUN + _TEXT).format(
         precision=precision,
-        function=inspect.getsource(function),
+        function=source,
         steps=steps,
         name=function.__name__,
         arguments=", ".join(given),
+        results=", ".join(f"numbers[{k}]" for k in range(len(returned.elts))),
     )
     return folder.function(text, 1)

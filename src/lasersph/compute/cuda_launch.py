@@ -44,7 +44,7 @@ def ceil(value):
 
 
 '''
-INNER = "@cuda.jit(device=True)"
+INNER = "@cuda.jit(device=True)\n"
 REDUCE = {
     "sum": "{0} += {1}",
     "max": "{0} = {1} if ({1} > {0} or {1} != {1}) else {0}",

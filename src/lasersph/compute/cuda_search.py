@@ -356,7 +356,7 @@ def cuda_scan_text(
     ]
     text = (HEAD + _SCAN).format(
         precision=precision,
-        mean="\n".join(f"{INNER}\n{text}\n" for text in unit.texts),
+        mean="\n".join(f"{INNER}{text}\n" for text in unit.texts),
         targets=", ".join(f"target_{k}" for k in range(dimension)),
         sorted_positions=", ".join(f"sorted_{k}" for k in range(dimension)),
         load_targets=indented(2, [f"x{k} = target_{k}[i]" for k in range(dimension)]),

@@ -5,13 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from lasersph.compute.array_function import array_function
-from lasersph.compute.generate import INNER
 
-_TEXT = f'''
+_TEXT = '''
 ONE = np.uint64(1)
 
 
-{INNER}
 def rows_by_key(_, keys, start, order, beyond):
     """Count the members of each key; the counts become ends of the keys' parts, and these the
     beginnings, which move on when filled."""
@@ -34,7 +32,6 @@ def rows_by_key(_, keys, start, order, beyond):
     start[0] = 0
 
 
-{INNER}
 def count_by_key(_, keys, counts, beyond):
     """How often each key occurs."""
     for k in range(np.uint64(keys.size)):
@@ -45,7 +42,6 @@ def count_by_key(_, keys, counts, beyond):
         counts[key] += np.uint32(1)
 
 
-{INNER}
 def rows_where(_, values, wanted, rows, found):
     """Each number is written, and kept where the next one does not take its place."""
     value, place = wanted[0], np.uint64(0)

@@ -31,7 +31,6 @@ HEAD_WORDS = 8
 RUN = f'''ZERO, ONE, TWO = np.uint64(0), np.uint64(1), np.uint64(2)
 
 
-@njit
 def run(launch):
     """Run the launch at an address; its reductions go to its results."""
     words = at_uint64(launch)
@@ -39,9 +38,9 @@ def run(launch):
     frame = launch + np.uint64({8 * HEAD_WORDS})
     if threads == ONE:
         for block in range(blocks):
-            invoke(words[0], block, block + ONE, threads, count, frame)
+            invoke(words[0], block, count, frame)
     elif blocks > ZERO:
-        invoke(words[0], ZERO, blocks, threads, count, frame)
+        share(words[0], blocks, threads, count, frame)
     hows, partial, results = at_uint8(words[5]), at_{{precision}}(words[6]), at_float64(words[7])
     for k in range(reduced):
         total = 0.0 if hows[k] == 0 else (-np.inf if hows[k] == 1 else np.inf)

@@ -1,22 +1,27 @@
-"""Machine code of generated functions: compiled once by Numba, kept as object files.
+"""Machine code of generated texts: written once by LLVM, kept as object files.
 
 An object file holds one function of unsigned 64-bit integers, whose name follows from its text.
-It is found again by that name and by what decides about machine code: versions and processor. A
-file that is damaged is written anew.
+It is found again by that name and by what decides about machine code: LLVM's version and the
+processor. A file that is damaged is written anew.
 """
 
 from __future__ import annotations
 
 import hashlib
 import importlib
-from collections.abc import Callable
 from functools import cache
 from importlib.metadata import version
 from typing import Any
 
 from lasersph.compute import numba_internals
+from lasersph.compute.native_calls import SHARE
+from lasersph.compute.native_text import NativeText
 
 _SUM_BYTES = 16
+_EFFORT = 3
+"""LLVM's level of optimization, its highest."""
+_owners: list[Any] = []
+"""What machine code of Numba's stays as long as."""
 
 
 @cache
@@ -25,7 +30,7 @@ def target() -> str:
     import llvmlite.binding as llvm
 
     features = llvm.get_host_cpu_features().flatten()
-    parts = (version("numba"), version("llvmlite"), llvm.get_host_cpu_name(), features)
+    parts = (version("llvmlite"), llvm.get_host_cpu_name(), features)
     return hashlib.sha256("|".join(parts).encode()).hexdigest()[:8]
 
 
@@ -34,8 +39,16 @@ def _engine() -> Any:
     """Owner of the machine code of this process; never closed."""
     import llvmlite.binding as llvm
 
-    importlib.import_module("lasersph.compute.parallel")  # whose import starts the threads
-    return llvm.create_mcjit_compiler(llvm.parse_assembly(""), _machine())
+    # the threads that loops are shared among: by their entry, or by a loop of Numba's
+    parallel = importlib.import_module("lasersph.compute.parallel")  # whose import starts them
+    has_entry = numba_internals.has_entry()
+    engine = llvm.create_mcjit_compiler(
+        llvm.parse_assembly(parallel.BY_ENTRY if has_entry else ""), _machine()
+    )
+    if not has_entry:
+        _owners.append(parallel.shared_by_numba())
+        llvm.add_symbol(SHARE, _owners[0].address)
+    return engine
 
 
 def _machine() -> Any:
@@ -47,47 +60,42 @@ def _machine() -> Any:
     return llvm.Target.from_default_triple().create_target_machine(
         cpu=llvm.get_host_cpu_name(),
         features=llvm.get_host_cpu_features().flatten(),
-        opt=3,
+        opt=_EFFORT,
         jit=True,
         codemodel="jitdefault",
         reloc="default",
     )
 
 
-def compile_function(function: Callable[..., None], name: str, *, is_fast: bool) -> bytes:
-    """Object file, with its check sum, of a function of unsigned integers without a result.
+def compile_text(text: str, symbol: str, *, is_fast: bool) -> bytes:
+    """Object file, with its check sum, of the function `loop` of a text.
 
     Args:
-        name: what it is called there. is_fast: whether sums may be rearranged.
-    """
-    import llvmlite.binding as llvm
+        symbol: what it is called there. is_fast: whether sums may be rearranged.
 
-    module = llvm.parse_assembly(llvm_of(function, name, is_fast=is_fast))
-    code = _machine().emit_object(module)
+    Raises:
+        LoopSourceError: the text has something that is not understood.
+    """
+    code = _machine().emit_object(optimized(text, symbol, is_fast=is_fast))
     return hashlib.sha256(code).digest()[:_SUM_BYTES] + code
 
 
-def llvm_of(function: Callable[..., None], name: str, *, is_fast: bool) -> str:
-    """LLVM's text of a function, with nothing that it does not call; see `compile_function`."""
-    module = numba_internals.module_of(function, name, is_fast=is_fast)
-    _drop_unused(module, name, _machine())
-    return numba_internals.without_release(str(module))
-
-
-def _drop_unused(module: Any, name: str, machine: Any) -> None:
-    """Remove the functions that Numba adds to every module, which nothing calls."""
+def optimized(text: str, symbol: str, *, is_fast: bool) -> Any:
+    """LLVM module of a text's function, as it is translated to machine code."""
     import llvmlite.binding as llvm
 
-    for function in module.functions:
-        if not function.is_declaration and function.name != name:
-            function.linkage = llvm.Linkage.internal
-    builder = llvm.create_pass_builder(machine, llvm.create_pipeline_tuning_options(0))
-    manager = llvm.create_new_module_pass_manager()
-    manager.add_global_dead_code_eliminate_pass()
-    manager.run(module, builder)
+    machine = _machine()
+    module = llvm.parse_assembly(NativeText(text, symbol, is_fast=is_fast).written())
+    module.triple, module.data_layout = machine.triple, str(machine.target_data)
+    # several elements at a time where a loop allows it
+    options = llvm.create_pipeline_tuning_options(_EFFORT)
+    options.loop_vectorization = True
+    builder = llvm.create_pass_builder(machine, options)
+    builder.getModulePassManager().run(module, builder)
+    return module
 
 
-def address_of(content: bytes, name: str) -> int | None:
+def address_of(content: bytes, symbol: str) -> int | None:
     """Address of the function in an object file; None where the file is damaged."""
     import llvmlite.binding as llvm
 
@@ -97,4 +105,4 @@ def address_of(content: bytes, name: str) -> int | None:
     engine = _engine()
     engine.add_object_file(llvm.ObjectFileRef.from_data(code))
     engine.finalize_object()
-    return engine.get_function_address(name)
+    return engine.get_function_address(symbol)

@@ -1,12 +1,12 @@
-"""Blocks of rows side by side: what a compiled loop calls to be run by several threads.
+"""Blocks of a loop side by side: the function `lasersph_share_blocks` that loops are run by.
 
-A loop that Numba parallelizes itself is compiled some four times over: as a function, as the body
-of its parallel region, in the wrapper of that region and in the caller. Here it is compiled once,
-for one block of rows. Called for several, it hands itself to Numba's threads, block by block, with
-the arguments that it has been given (`dispatch_blocks`). Where the entry of Numba's threads is not
-known, who calls it shares the blocks by Numba's own parallel loop (`invoke`, `cache.shared_text`).
+    lasersph_share_blocks(loop, blocks, threads, count, frame)
 
-Importing this starts Numba's threads, which also makes their entry known to the compiler.
+calls what is compiled at the address `loop` with each number of a block, `count` and `frame`, on so
+many of Numba's threads. By the entry of these threads, which Numba does not document, that is a
+function written here; where the entry is not as known, it is one of Numba's own parallel loops.
+
+Importing this starts Numba's threads, which also makes their entry known.
 """
 
 from __future__ import annotations
@@ -14,44 +14,97 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numba import get_num_threads, njit, prange, types
+from numba import cfunc, get_num_threads, njit, prange, types
 from numba.extending import intrinsic
 
-from lasersph.compute import native, numba_internals
+from lasersph.compute.native_calls import SHARE
+from lasersph.compute.numba_internals import PARALLEL_FOR
 
 get_num_threads()
 
+BY_ENTRY = f"""
+declare void @{PARALLEL_FOR}(ptr, ptr, ptr, ptr, ptr, i64, i64, i64)
+
+; blocks of one thread, as Numba calls functions of arrays: the operand is no address but the number
+; of the first block, which grows by a step of one; `data` holds loop, count and frame
+define internal void @{SHARE}.task(ptr %operands, ptr %counts, ptr %steps, ptr %data) {{
+start:
+  %first = load i64, ptr %operands
+  %blocks = load i64, ptr %counts
+  %end = add i64 %first, %blocks
+  %address = load i64, ptr %data
+  %count_place = getelementptr i64, ptr %data, i64 1
+  %count = load i64, ptr %count_place
+  %frame_place = getelementptr i64, ptr %data, i64 2
+  %frame = load i64, ptr %frame_place
+  %loop = inttoptr i64 %address to ptr
+  br label %test
+test:
+  %block = phi i64 [ %first, %start ], [ %next, %body ]
+  %is_more = icmp ult i64 %block, %end
+  br i1 %is_more, label %body, label %done
+body:
+  call void %loop(i64 %block, i64 %count, i64 %frame)
+  %next = add nuw i64 %block, 1
+  br label %test
+done:
+  ret void
+}}
+
+define void @{SHARE}(i64 %loop, i64 %blocks, i64 %threads, i64 %count, i64 %frame) {{
+start:
+  %data = alloca [3 x i64]
+  %operand = alloca i64
+  %length = alloca i64
+  %step = alloca i64
+  store i64 %loop, ptr %data
+  %count_place = getelementptr i64, ptr %data, i64 1
+  store i64 %count, ptr %count_place
+  %frame_place = getelementptr i64, ptr %data, i64 2
+  store i64 %frame, ptr %frame_place
+  store i64 0, ptr %operand
+  store i64 %blocks, ptr %length
+  store i64 1, ptr %step
+  ; one operand, which has no axes of its own
+  call void @{PARALLEL_FOR}(ptr @{SHARE}.task, ptr %operand, ptr %length, ptr %step, ptr %data,
+                            i64 0, i64 1, i64 %threads)
+  ret void
+}}
+"""
+
 
 @intrinsic
-def dispatch_blocks(_context: Any) -> tuple:
-    """Run the loop that calls this once for each of its blocks.
+def _invoke(_context: Any, _address: Any, _block: Any, _count: Any, _frame: Any) -> tuple:
+    """Call the loop at an address with its three unsigned integers; gives 0."""
+    from llvmlite import ir
 
-    For functions loop(begin, end, threads, ...) of three unsigned integers and anything else, with
-    no result: for each b from `begin` to `end` loop(b, b + 1, threads, ...) runs on one of so many
-    threads. An error that a block raises is raised when all are done.
-    """
-    return types.none(), numba_internals.hand_over
+    def code(_context: Any, builder: Any, _signature: Any, arguments: Any) -> Any:
+        word = ir.IntType(64)
+        loop = ir.FunctionType(ir.VoidType(), [word] * 3)
+        builder.call(builder.inttoptr(arguments[0], loop.as_pointer()), arguments[1:])
+        return ir.Constant(word, 0)
+
+    return types.uint64(*[types.uint64] * 4), code
 
 
 _ONE = np.uint64(1)
-_invoke_block: Any = native.invoke
+_invoke_block: Any = _invoke
 
 
 @njit(parallel=True)
-def _invoke_blocks(address, begin, end, threads, count, frame):
+def _share_blocks(address, blocks, threads, count, frame):
     """Call the loop at an address for each of its blocks, a share of them on each thread."""
     for k in prange(np.int64(threads)):
         share = np.uint64(k)
-        first = begin + (end - begin) * share // threads
-        last = begin + (end - begin) * (share + _ONE) // threads
-        for block in range(first, last):
-            _invoke_block(address, block, block + _ONE, _ONE, count, frame)
+        for block in range(blocks * share // threads, blocks * (share + _ONE) // threads):
+            _invoke_block(address, block, count, frame)
 
 
-@njit
-def invoke(address, begin, end, threads, count, frame):
-    """`native.invoke` for loops of one block, by `prange` where there are several."""
-    if end - begin > _ONE:
-        _invoke_blocks(address, begin, end, threads, count, frame)
-    else:
-        _invoke_block(address, begin, end, threads, count, frame)
+def shared_by_numba() -> Any:
+    """The function by Numba's own parallel loop, with its `address`; its owner must stay."""
+
+    @cfunc(types.void(*[types.uint64] * 5))
+    def share(address, blocks, threads, count, frame):
+        _share_blocks(address, blocks, threads, count, frame)
+
+    return share

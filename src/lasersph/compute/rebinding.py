@@ -40,19 +40,16 @@ TEXT = f'''
 DATA, NDIM, SHAPE, STRIDES, DTYPE = (np.uint64(k) for k in (16, 24, 32, 40, 56))
 
 
-@njit
 def word(address):
     return at_uint64(address)[ZERO]
 
 
-@njit
 def length(one):
     """Entries along the last axis."""
     axes = np.uint64(at_uint32(one + NDIM)[ZERO])
     return at_uint64(word(one + SHAPE))[axes - ONE]
 
 
-@njit
 def is_same_kind(one, entry):
     axes = np.uint64(at_uint32(one + NDIM)[ZERO])
     if word(one + DTYPE) != entry[0] or axes != entry[1]:
@@ -64,7 +61,6 @@ def is_same_kind(one, entry):
     return strides[axes - ONE] == entry[4] or shape[axes - ONE] <= ONE
 
 
-@njit
 def put(one, entry, frame):
     """Write the addresses of an array's components, and the length of a table."""
     axes, place = np.uint64(at_uint32(one + NDIM)[ZERO]), entry[7]

@@ -12,7 +12,7 @@ from collections.abc import Callable
 from functools import cache
 from typing import NamedTuple
 
-from lasersph.compute.generate import BLOCK, INNER
+from lasersph.compute.generate import BLOCK
 from lasersph.compute.source import SourceUnit
 
 _HEAD = """ZERO = np.uint64(0)
@@ -22,10 +22,10 @@ PIECE = np.uint64(CAPACITY)
 
 
 """
-_SORT = '''{inner}
-def sort(_, position, members, low, inverse, shape, cell, start, order):
+_SORT = '''def sort(_, position, members, low, inverse, shape, cell, start, order):
     """Stable counting sort of the members of a level by cell; start has one entry more."""
-    start[:] = 0
+    for c in range(start.size):
+        start[np.uint64(c)] = 0
     for m in range(members.size):
         j = np.uint64(members[m])
         c = ZERO
@@ -44,7 +44,6 @@ def sort(_, position, members, low, inverse, shape, cell, start, order):
 '''
 _SCAN = '''{mean}
 
-{inner}
 def scan(block, start, used, count, targets, support, sorted_position, sorted_support, order,
          starts, first_cell, first_member, low, high, inverse, shape, largest, smallest, widening,
          period, scratch, ends):
@@ -67,8 +66,7 @@ def scan(block, start, used, count, targets, support, sorted_position, sorted_su
         ends[i] = place
     used[block] = place
 '''
-_STORE = '''{inner}
-def store(block, start, count, bases, scratch, ends, row_start, neighbor):
+_STORE = '''def store(block, start, count, bases, scratch, ends, row_start, neighbor):
     """Copy scratch to its place in the list and set the row pointers."""
     number = start + block
     slot = number % np.uint64(scratch.shape[0])
@@ -83,7 +81,7 @@ def store(block, start, count, bases, scratch, ends, row_start, neighbor):
 
 
 def _text(text: str, **parts: str) -> str:
-    return (_HEAD + text).format(block=BLOCK, inner=INNER, **parts)
+    return (_HEAD + text).format(block=BLOCK, **parts)
 
 
 class ScanText(NamedTuple):
@@ -130,7 +128,7 @@ def scan_text(dimension: int, mean: Callable, periodic: tuple[bool, ...]) -> Sca
     loops, depth = images(dimension, periodic)
     text = _text(
         _SCAN,
-        mean="\n".join(f"{INNER}\n{text}\n" for text in unit.texts),
+        mean="\n".join(f"{text}\n" for text in unit.texts),
         load_targets=indented(2, [f"x{k} = targets[{k}, i]" for k in range(dimension)]),
         images=indented(3, loops) + "\n" + indented(3 + depth, _pieces(dimension, periodic)),
     )

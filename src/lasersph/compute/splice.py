@@ -14,14 +14,13 @@ import numpy as np
 from lasersph.compute.array_function import array_function
 from lasersph.compute.array_types import Array, Rows
 from lasersph.compute.backend import Backend
-from lasersph.compute.generate import BLOCK, INNER
+from lasersph.compute.generate import BLOCK
 
 _TEXT = f'''
 ONE = np.uint64(1)
 BLOCK = np.uint64({BLOCK})
 
 
-{INNER}
 def lengths(_, count, chosen, start, kept, row_start):
     """Row pointers of the joined list."""
     row_start[np.uint64(0)] = np.uint64(0)
@@ -34,7 +33,6 @@ def lengths(_, count, chosen, start, kept, row_start):
         row_start[i + ONE] = row_start[i] + length
 
 
-{INNER}
 def copy_rows(block, count, chosen, start, neighbor, values, kept, kept_neighbor, kept_values,
               row_start, joined, joined_values):
     """Copy the rows of a block to their places."""

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from lasersph.compute.generate import INNER
 from lasersph.compute.source import SourceUnit
 
 ROWS = 4
@@ -21,7 +20,6 @@ ROWS = np.uint64({ROWS})
 """
 TILES = f'''{_HEAD}
 
-{INNER}
 def touching(_, size, row_start, neighbor, touches):
     """touches[a, b] is 1 where a row of block a has a neighbor in block b."""
     for i in range(np.uint64(row_start.size - 1)):
@@ -29,7 +27,6 @@ def touching(_, size, row_start, neighbor, touches):
             touches[i // size, np.uint64(neighbor[p]) // size] = 1
 
 
-{INNER}
 def place(i, j, size, color):
     """0 where j comes before the chunk of i, 1 where after it, 2 where it belongs to it."""
     here, there = i // size, j // size
@@ -39,7 +36,6 @@ def place(i, j, size, color):
     return ONE + ONE if c == d else (ZERO if d < c else ONE)
 
 
-{INNER}
 def count_columns(_, size, color, row_start, neighbor, seen, columns):
     """columns[k, c]: particles before (k = 0) and after (1) that chunk c sees; `seen` is 0."""
     count = np.uint64(row_start.size - 1)
@@ -53,7 +49,6 @@ def count_columns(_, size, color, row_start, neighbor, seen, columns):
                 columns[k, c] += ONE
 
 
-{INNER}
 def fill(_, side, size, color, row_start, neighbor, weights, slot, start, column, value, inner,
          total, after):
     """Tiles before (side = 0) or after (1) the chunks; with the latter, weights within chunks.
@@ -89,7 +84,6 @@ def fill(_, side, size, color, row_start, neighbor, weights, slot, start, column
 _SWEEP = '''{head}
 
 {functions}
-{inner}
 def sweep(number, blocks, size, count, partial, start, column, value, inner, {names}):
     """A block of one color, which reads nothing that another writes; chunk after chunk."""
     b = blocks[number]
@@ -161,8 +155,7 @@ def _written(
         rows += _row(lane, name, roles, constants, outs, reduces, backward=backward)
     return _SWEEP.format(
         head=_HEAD,
-        functions="\n".join(f"{INNER}\n{part}\n" for part in unit.texts),
-        inner=INNER,
+        functions="\n".join(f"{part}\n" for part in unit.texts),
         names=", ".join([*outs, *fields, "numbers"]),
         sums=", ".join(f"r{k}" for k in range(reduces)) or "_",
         zeros=", ".join("real(0.0)" for _ in range(reduces)) or "ZERO",

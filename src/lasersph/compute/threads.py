@@ -7,10 +7,6 @@ has chosen a policy gets that one.
 """
 
 import os
-from functools import cache
-from types import ModuleType
-
-from lasersph.compute import numba_internals
 
 if "OMP_WAIT_POLICY" not in os.environ:
     os.environ["OMP_WAIT_POLICY"] = "passive"
@@ -24,22 +20,14 @@ def available() -> int:
     return os.cpu_count() or 1
 
 
-@cache
-def start_numba() -> ModuleType:
-    """Numba, imported without SciPy's linear algebra."""
-    import numba
-
-    numba_internals.skip_blas()
-    return numba
-
-
 def chosen(threads: int | None) -> int:
     """Number of threads to use: as asked for, no more than there are; None takes them all.
 
     Raises:
         ValueError: fewer than one thread.
     """
-    numba = start_numba()
+    import numba
+
     if threads is not None and threads < 1:
         raise ValueError(f"threads must be at least 1, not {threads}")
     limit = min(available(), numba.config.NUMBA_NUM_THREADS)  # type: ignore[attr-defined]

@@ -1,9 +1,9 @@
-"""Trial of parts of Numba that may end a process: once, in a process of its own.
+"""Trial of the entry of Numba's threads, which may end a process: once, in a process of its own.
 
-    python -m lasersph.compute.trial PART
+    python -m lasersph.compute.trial
 
-runs loops by such a part, and ends with 0 where they do what they should. The answer is kept in the
-cache folder, for one Numba and one processor.
+shares the blocks of a loop through it, and ends with 0 where each was done once. The answer is kept
+in the cache folder, for one Numba and one processor.
 """
 
 from __future__ import annotations
@@ -12,48 +12,41 @@ import ctypes
 import subprocess
 import sys
 from contextlib import suppress
+from importlib.metadata import version
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
 from lasersph.compute import machine_code
 from lasersph.compute.arguments import address
-from lasersph.compute.generate import NATIVE
 
 PREFIX = "trial_"
 """Begins the names of the files with answers."""
 _LONGEST = 600.0
-"""Compiling two loops takes seconds [s], on a machine that does nothing else."""
+"""Two small loops take tenths of a second [s], on a machine that does nothing else."""
 _BLOCKS = 40
-_SHARED_LOOP = """
-def loop(begin, end, threads, frame):
+_BLOCK = """
+def loop(block, count, frame):
     visits = at_uint64(frame)
-    if end - begin > np.uint64(1):
-        dispatch_blocks()
-        return
-    for b in range(begin, end):
-        visits[b] += b + np.uint64(1)
+    visits[block] += block + count
 """
-"""Adds to each block its number and one, on several threads."""
-_PLAIN_LOOP = """
-def loop(begin, end, threads, frame):
-    visits = at_uint64(frame)
-    for b in range(begin, end):
-        visits[b] += b + np.uint64(1)
+"""Adds to each block its number and the count."""
+_SHARED = """
+def loop(block_address, blocks, threads, count, frame):
+    share(block_address, blocks, threads, count, frame)
 """
 
 
-def passes(folder: Path, part: str) -> bool:
-    """Whether a part, by its name, did what it should when it was tried.
+def passes(folder: Path) -> bool:
+    """Whether the entry did what it should when it was tried.
 
     Args:
         folder: where the answer is kept.
     """
-    kept = folder / f"{PREFIX}{part.lower()}-{machine_code.target()}.txt"
+    kept = folder / f"{PREFIX}threads-{version('numba')}-{machine_code.target()}.txt"
     if kept.is_file():
         return kept.read_text(encoding="utf-8") == "passes"
-    command = [sys.executable, "-m", __name__, part]
+    command = [sys.executable, "-m", __name__]
     try:
         found = subprocess.run(command, capture_output=True, timeout=_LONGEST, check=False)
     except subprocess.TimeoutExpired:
@@ -64,35 +57,22 @@ def passes(folder: Path, part: str) -> bool:
     return answer == "passes"
 
 
-def _function_of(text: str) -> Any:
-    """The function `loop` of a text."""
-    space: dict[str, Any] = {"__name__": "lasersph_trial"}
-    exec(NATIVE.format(precision="float64") + text, space)
-    return space["loop"]
+def _compiled(text: str, symbol: str) -> int:
+    """Address of the function of a text."""
+    place = machine_code.address_of(
+        machine_code.compile_text(text, symbol, is_fast=False), symbol
+    )
+    assert place is not None
+    return place
 
 
-def _visits(part: str) -> list[int]:
-    """Values that a loop over all blocks but two, compiled by a part, leaves of zeros."""
-    from lasersph.compute import numba_internals
-
-    visits = np.zeros(_BLOCKS, np.uint64)
-    if part == numba_internals.Part.THREADS.name:
-        function = _function_of(_SHARED_LOOP)
-        callback = numba_internals.compiled_callback(function, "trial", is_fast=True)
-        entry = callback.address
-    else:
-        code = machine_code.compile_function(_function_of(_PLAIN_LOOP), "trial", is_fast=True)
-        entry = machine_code.address_of(code, "trial")
-        assert entry is not None
-    call = ctypes.PYFUNCTYPE(None, *[ctypes.c_uint64] * 4)(entry)
-    call(1, _BLOCKS - 1, 2, address(visits))
-    return visits.tolist()
-
-
-def main(part: str) -> int:
+def main() -> int:
     """0 where each block was visited once, else 1."""
-    return 0 if _visits(part) == [0, *range(2, _BLOCKS), 0] else 1
+    visits = np.zeros(_BLOCKS, np.uint64)
+    shared = ctypes.PYFUNCTYPE(None, *[ctypes.c_uint64] * 5)(_compiled(_SHARED, "trial_shared"))
+    shared(_compiled(_BLOCK, "trial_block"), _BLOCKS - 1, 2, 1, address(visits))
+    return 0 if visits.tolist() == [*range(1, _BLOCKS), 0] else 1
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1]))
+    sys.exit(main())
