@@ -1,9 +1,9 @@
-"""Numba as if some of its private parts were gone, and what small cases compute with it.
+"""Numba as if the entry of its threads were gone, and what small cases compute with it.
 
-    python numba_without.py PARTS CASES
+    python numba_without.py CASES
 
-prints, for each case, a check sum of all that a few steps give, then the notices. Both lists are
-separated by commas; no part is `-`.
+prints, for each case, a check sum of all that a few steps give, then the notices. Cases are
+separated by commas.
 """
 
 import hashlib
@@ -14,39 +14,12 @@ from types import SimpleNamespace
 import numpy as np
 
 
-def _without_threads():
+def forget_entry():
+    """The entry of Numba's threads is unknown."""
     import llvmlite.binding as llvm
 
     known = llvm.address_of_symbol
     llvm.address_of_symbol = lambda name: None if name == "numba_parallel_for" else known(name)
-
-
-def _without_machine_code():
-    """The function behind a callback has another name."""
-    from numba.core.ccallback import CFunc
-
-    CFunc.native_name = property(lambda self: f"callback.{self._wrapper_name}")
-
-
-def _without_wrappers():
-    from numba.core.options import DefaultOptions
-
-    del DefaultOptions.no_cpython_wrapper, DefaultOptions.no_cfunc_wrapper
-
-
-def _without_blas():
-    from numba.np import arraymath, linalg  # noqa: F401
-
-    names = {name: value for name, value in vars(linalg).items() if name != "ensure_blas"}
-    sys.modules["numba.np.linalg"] = SimpleNamespace(**names)
-
-
-BREAKS = {
-    "THREADS": _without_threads,
-    "MACHINE_CODE": _without_machine_code,
-    "WRAPPERS": _without_wrappers,
-    "BLAS": _without_blas,
-}
 
 
 def _loops(total):
@@ -169,11 +142,10 @@ def check_sum(values):
 
 
 if __name__ == "__main__":
-    for part in sys.argv[1].split(","):
-        BREAKS.get(part, lambda: None)()
+    forget_entry()
     with warnings.catch_warnings(record=True) as notices:
         warnings.simplefilter("always")
-        for case in sys.argv[2].split(","):
+        for case in sys.argv[1].split(","):
             print(case, sum_of(case))
     for notice in notices:
         print(notice.category.__name__, notice.message)

@@ -1,8 +1,8 @@
 """Functions of arrays and whole numbers, compiled, stored and called as loops are.
 
 What is no loop over rows with a formula, such as the scan for neighbors, is a text with functions
-as `native_functions` understands them. One of them is called for each of some blocks, with the number of the block
-first; its arrays and numbers stand in a frame, as those of a launch do.
+as `native_functions` understands them. One of them is called for each of some blocks, with the
+number of the block first; its arrays and numbers stand in a frame, as those of a launch do.
 """
 
 from __future__ import annotations

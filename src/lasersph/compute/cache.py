@@ -22,7 +22,7 @@ from collections.abc import Callable
 from functools import cache
 from pathlib import Path
 from types import ModuleType
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from lasersph.compute import machine_code, numba_internals, trial
 from lasersph.compute.compile_lock import compiling_alone
@@ -33,7 +33,9 @@ SHARED = (
     "machine_code.py",
     "native_calls.py",
     "native_code.py",
+    "native_expressions.py",
     "native_functions.py",
+    "native_signatures.py",
     "native_text.py",
     "native_values.py",
 )

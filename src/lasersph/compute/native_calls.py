@@ -28,23 +28,24 @@ from lasersph.compute.native_values import (
     Pointer,
     View,
     literal,
+    number,
 )
-from lasersph.compute.values import LoopSourceError
 
 CAPACITY = 64
 """Elements of the scratch memory of a function: more than most particles have neighbors."""
 SHARE = "lasersph_share_blocks"
 """Symbol of the function that shares blocks among threads."""
-_ONE = frozenset("sqrt exp log log10 sin cos floor ceil".split())
-_TWO = frozenset(("pow", "copysign"))
-_LIBRARY = frozenset("tan asin acos atan sinh cosh tanh expm1 log1p erf erfc atan2".split())
+_ONE = {"sqrt", "exp", "log", "log10", "sin", "cos", "floor", "ceil"}
+_TWO = {"pow", "copysign"}
+_LIBRARY = {"tan", "asin", "acos", "atan", "sinh", "cosh", "tanh", "expm1", "log1p", "erf"}
+_LIBRARY |= {"erfc", "atan2"}
 
 
 def called(code: Code, name: str, given: list[Item]) -> Item | None:
     """What a call gives; None where the name is not known."""
     prefix, _, kind = name.partition("_")
     if prefix == "at" and kind in LLVM:
-        return code.pointer(code.cast(given[0], UINT64), np.dtype(kind))
+        return code.pointer(code.cast(number(given[0]), UINT64), np.dtype(kind))
     if prefix == "scratch" and kind in LLVM:
         return Pointer(np.dtype(kind), code.place(f"[{CAPACITY} x {LLVM[kind]}]"))
     if name in _NAMED:
@@ -66,7 +67,7 @@ def _mathematical(code: Code, name: str, given: list[Any]) -> Item | None:
 
 def _array(code: Code, given: list[Any]) -> View:
     elements, shape = given
-    lengths = shape if isinstance(shape, tuple) and not isinstance(shape, Number) else (shape,)
+    lengths = shape if isinstance(shape, list) else [shape]
     return View(elements.dtype, elements.text, tuple(code.cast(n, INT64) for n in lengths))
 
 
@@ -82,21 +83,21 @@ def _length(_code: Code, given: list[Any]) -> Number:
     return one.shape[0] if isinstance(one, View) else literal(len(one))
 
 
-def _invoked(code: Code, given: list[Any]) -> tuple:
+def _invoked(code: Code, given: list[Any]) -> list:
     """Call what is compiled at an address."""
     loop, *numbers = given
-    arguments = ", ".join(code.cast(number, UINT64).typed for number in numbers)
+    arguments = ", ".join(code.cast(one, UINT64).typed for one in numbers)
     place = code.register(f"inttoptr {loop.typed} to ptr")
     code.put(f"call void {place}({arguments})")
-    return ()
+    return []
 
 
-def _shared(code: Code, given: list[Any]) -> tuple:
+def _shared(code: Code, given: list[Any]) -> list:
     """Call the loop at an address for each of its blocks, on several threads."""
-    arguments = ", ".join(code.cast(number, UINT64).typed for number in given)
+    arguments = ", ".join(code.cast(one, UINT64).typed for one in given)
     code.declared.add(f"declare void @{SHARE}({', '.join(['i64'] * len(given))})")
     code.put(f"call void @{SHARE}({arguments})")
-    return ()
+    return []
 
 
 _NAMED = {

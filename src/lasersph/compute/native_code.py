@@ -6,8 +6,11 @@ jump takes no more of them.
 
 from __future__ import annotations
 
+import numpy as np
+
 from lasersph.compute.native_values import (
     BOOL,
+    FLOAT64,
     INT64,
     LLVM,
     UINT64,
@@ -19,8 +22,6 @@ from lasersph.compute.native_values import (
     literal,
 )
 from lasersph.compute.values import LoopSourceError
-
-import numpy as np
 
 FAST = "reassoc nsz arcp contract "
 """Liberties with sums and products; NaN and infinity stay."""
@@ -115,8 +116,9 @@ class Code:
 
     def arithmetic(self, op: str, a: Number, b: Number) -> Number:
         """a op b of + - * / // % & |."""
-        dtype = np.dtype("float64") if op == "/" else None
-        dtype = arithmetic(a.dtype, b.dtype) if dtype is None or "f" in a.dtype.kind + b.dtype.kind else dtype
+        dtype = arithmetic(a.dtype, b.dtype)
+        if op == "/" and dtype.kind != "f":
+            dtype = FLOAT64
         a, b = self.cast(a, dtype), self.cast(b, dtype)
         if dtype.kind == "f" and op in _REAL:
             how = f"{_REAL[op]} {self.fast}"
@@ -218,7 +220,7 @@ class Code:
         dtype = values[0].dtype
         for value in values[1:]:
             dtype = joined(dtype, value.dtype)
-        return dtype if dtype.kind == "f" else np.dtype("float64")
+        return dtype if dtype.kind == "f" else FLOAT64
 
     def _called(
         self, name: str, kind: str, values: list[Number], dtype: np.dtype, fast: str | None

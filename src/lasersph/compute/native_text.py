@@ -14,7 +14,9 @@ from typing import Any
 import numpy as np
 
 from lasersph.compute.native_calls import CAPACITY
-from lasersph.compute.native_functions import NativeFunction, Widened, kinds_of, parameters
+from lasersph.compute.native_expressions import Widened
+from lasersph.compute.native_functions import NativeFunction
+from lasersph.compute.native_signatures import kinds_of, parameters
 from lasersph.compute.native_values import UINT64, Item, Number
 from lasersph.compute.values import LoopSourceError
 

@@ -13,7 +13,7 @@ import numpy as np
 
 from lasersph.compute.values import LoopSourceError
 
-BOOL, INT64, UINT64 = (np.dtype(name) for name in ("bool", "int64", "uint64"))
+BOOL, INT64, UINT64, FLOAT64 = map(np.dtype, ("bool", "int64", "uint64", "float64"))
 LLVM = {
     "bool": "i1",
     "uint8": "i8",
@@ -58,8 +58,8 @@ class View(NamedTuple):
     shape: tuple[Number, ...]
 
 
-Item = Number | Pointer | View | tuple
-"""What an expression gives."""
+Item = Number | Pointer | View | list[Any]
+"""An expression gives one of these, or a list of several."""
 
 
 def literal(value: Any) -> Number:
@@ -93,3 +93,13 @@ def arithmetic(a: np.dtype, b: np.dtype) -> np.dtype:
         return np.promote_types(a, b)
     return UINT64 if a.kind == b.kind == "u" else INT64
 
+
+def number(item: Item) -> Number:
+    """The number that an expression gives.
+
+    Raises:
+        LoopSourceError: it gives something else.
+    """
+    if not isinstance(item, Number):
+        raise LoopSourceError("a number is asked for")
+    return item

@@ -59,9 +59,7 @@ def passes(folder: Path) -> bool:
 
 def _compiled(text: str, symbol: str) -> int:
     """Address of the function of a text."""
-    place = machine_code.address_of(
-        machine_code.compile_text(text, symbol, is_fast=False), symbol
-    )
+    place = machine_code.address_of(machine_code.compile_text(text, symbol, is_fast=False), symbol)
     assert place is not None
     return place
 

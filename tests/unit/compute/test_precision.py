@@ -40,9 +40,8 @@ def shape(s):
 
 def compiled(loop):
     """LLVM text of a freshly compiled loop."""
-    space = {"__name__": "loop_of_a_test"}
-    exec(LoopText(loop).written(), space)
-    return machine_code.llvm_of(space["loop"], "loop_of_a_test", is_fast=True)
+    text = LoopText(loop).written()
+    return str(machine_code.optimized(text, "loop_of_a_test", is_fast=True))
 
 
 @pytest.mark.parametrize("precision", ["float32", "float64"])
