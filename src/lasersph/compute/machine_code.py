@@ -21,7 +21,7 @@ _SUM_BYTES = 16
 _EFFORT = 3
 """LLVM's level of optimization, its highest."""
 _owners: list[Any] = []
-"""What machine code of Numba's stays as long as."""
+"""Owners of machine code of Numba's, which goes with them."""
 
 
 @cache

@@ -5,7 +5,7 @@
 | `real(x)`, `np.uint64(x)`, ... | the number in another type |
 | `at_float64(address)`, ... | elements at an address |
 | `carray(elements, shape)` | a contiguous array |
-| `scratch_float64()`, ... | memory for `CAPACITY` elements, which no other memory overlaps |
+| `scratch_...()` of a type | memory for `CAPACITY` elements, which no other memory overlaps |
 | `minimum(a, b)`, `maximum(a, b)` | NaN where one is NaN, in any order of many |
 | `invoke(loop, ...)` | what is compiled at an address, called with whole numbers |
 | `share(loop, ...)` | the same for blocks of rows on several threads |
@@ -42,7 +42,7 @@ _LIBRARY |= {"erfc", "atan2"}
 
 
 def called(code: Code, name: str, given: list[Item]) -> Item | None:
-    """What a call gives; None where the name is not known."""
+    """Value of a call; None where the name is not known."""
     prefix, _, kind = name.partition("_")
     if prefix == "at" and kind in LLVM:
         return code.pointer(code.cast(number(given[0]), UINT64), np.dtype(kind))

@@ -135,16 +135,16 @@ class Code:
     def _floored(self, op: str, a: Number, b: Number) -> Number:
         """Quotient of whole numbers toward minus infinity, or its remainder, which has b's sign."""
         quotient = Number(INT64, self.register(f"sdiv {a.typed}, {b.text}"))
-        rest = Number(INT64, self.register(f"srem {a.typed}, {b.text}"))
-        # one less where a rest is left whose sign is not that of b
+        remainder = Number(INT64, self.register(f"srem {a.typed}, {b.text}"))
+        # one less where something is left whose sign is not that of b
         zero = literal(0)
-        left = self.compare("!=", rest, zero)
-        signs = Number(INT64, self.register(f"xor {rest.typed}, {b.text}"))
+        left = self.compare("!=", remainder, zero)
+        signs = Number(INT64, self.register(f"xor {remainder.typed}, {b.text}"))
         apart = self.compare("<", signs, zero)
         lower = Number(BOOL, self.register(f"and i1 {left.text}, {apart.text}"))
         if op == "//":
             return self.arithmetic("-", quotient, self.cast(lower, INT64))
-        return self.select(lower, self.arithmetic("+", rest, b), rest)
+        return self.select(lower, self.arithmetic("+", remainder, b), remainder)
 
     def negated(self, value: Number) -> Number:
         """-value."""
