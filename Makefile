@@ -63,11 +63,11 @@ $(VENV)/bin/python:
 # A stamp per set of extras, renewed when the metadata changes.
 # Without bytecode, of which a run needs a part: half the time.
 $(VENV)/.run: pyproject.toml | $(VENV)/bin/python
-	$(call install,.)
+	@$(call install,.)
 	@touch $@
 
 $(VENV)/.%: pyproject.toml | $(VENV)/bin/python
-	$(call install,'.[$(subst check,check$(comma)test,$*)$(if $(filter test check,$*),$(GPU))]')
+	@$(call install,'.[$(subst check,check$(comma)test,$*)$(if $(filter test check,$*),$(GPU))]')
 	@touch $@
 
 # uv installs in a third of pip's time; pip does where uv cannot be had, or finds less than pip.
