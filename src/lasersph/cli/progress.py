@@ -122,7 +122,7 @@ class RunDisplay(ProgressDisplay["RunProgress"]):
 
     def compiling(self) -> None:
         """The first loop that no earlier run has left is about to be compiled."""
-        self.say("compiling loops as they are needed, a minute or two in all; later runs find them")
+        self.say("compiling loops as they are needed, some seconds in all; later runs find them")
 
     def compiled(self, compiling: Compiling) -> None:
         """Another loop is: how many now, and how long the rest may take."""

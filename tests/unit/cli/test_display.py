@@ -81,7 +81,7 @@ def test_line_on_a_terminal(capsys, monkeypatch):
 
 def test_compiling_is_said(capsys):
     """A line of its own, above the bar where there is one already."""
-    text = "compiling loops as they are needed, a minute or two in all; later runs find them\n"
+    text = "compiling loops as they are needed, some seconds in all; later runs find them\n"
     with RunDisplay(is_terminal=False) as progress:
         progress.compiling()
     assert capsys.readouterr().err == text
