@@ -38,13 +38,14 @@ def flat_texts(item: Item) -> list[str]:
     return [text for one in item for text in flat_texts(one)]
 
 
-def parameters(given: list[Item]) -> tuple[list[Item], list[tuple[str, str]]]:
-    """Parameters for arguments of some types, and the name and text of each of their parts."""
-    heads: list[tuple[str, str]] = []
+def parameters(given: list[Item]) -> tuple[list[Item], list[str]]:
+    """Parameters for arguments of some types, and the text of each of their parts."""
+    texts: list[str] = []
 
     def part(kind: str) -> str:
-        heads.append((f"%a{len(heads)}", f"{kind} %a{len(heads)}"))
-        return heads[-1][0]
+        register = f"%a{len(texts)}"
+        texts.append(f"{kind} {register}")
+        return register
 
     def renamed(item: Item) -> Item:
         if isinstance(item, Number):
@@ -57,4 +58,4 @@ def parameters(given: list[Item]) -> tuple[list[Item], list[tuple[str, str]]]:
             )
         return list(map(renamed, item))
 
-    return [renamed(item) for item in given], heads
+    return [renamed(item) for item in given], texts

@@ -77,7 +77,7 @@ class NativeText:
                 raise LoopSourceError(f"{name}(): {error}") from None
             break
         linkage = "" if name == "loop" else "internal "
-        code, heads = function.code, ", ".join(head for _, head in parameters(given)[1])
+        code, heads = function.code, ", ".join(parameters(given)[1])
         self._lines += [f"define {linkage}{function.result_text} @{symbol}({heads}) {{", "start:"]
         self._lines += [*code.places, *code.lines, "}"]
         self._declared |= code.declared
