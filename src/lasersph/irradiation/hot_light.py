@@ -112,7 +112,7 @@ class HotLight(LayeredLight):
         self._optical = self._thickness()
         self._light = self.backend.zeros(self._cells + 1)
 
-    def _enter(self, fields: dict[str, Array], shares: dict[str, Array]) -> None:
+    def _find_entering(self, fields: dict[str, Array], shares: dict[str, Array]) -> None:
         """As `LayeredLight`, and the shares of the particles with the alpha of their columns."""
         backend, alphas = self.backend, self._alphas
         out, reduce = (self.columns, None, None, alphas), (None, "sum", "sum", None)

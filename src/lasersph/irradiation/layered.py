@@ -320,7 +320,7 @@ class LayeredLight:
             total, other, distance = other, total, 2 * distance
         return total
 
-    def _enter(self, fields: dict[str, Array], shares: dict[str, Array]) -> None:
+    def _find_entering(self, fields: dict[str, Array], shares: dict[str, Array]) -> None:
         """Set the light that enters the columns; reduces what is reflected and transmitted [J]."""
         out, reduce = (self.columns, None, None), (None, "sum", "sum")
         self.backend.pointwise(enter_column, fields, out, reduce=reduce, **self._entering)
@@ -359,7 +359,7 @@ class LayeredLight:
         """
         backend, table = self.backend, {"columns": self.columns}
         fields = {"F": self.fluence, "area": self._area}
-        self._enter(fields | {"T_s": backend.head(T_s, self.columns.shape[0])}, shares)
+        self._find_entering(fields | {"T_s": backend.head(T_s, self.columns.shape[0])}, shares)
         if "share" in shares:
             backend.pointwise(absorb_light, shares, self.deposit, reduce=("sum",), **table)
             return

@@ -15,6 +15,8 @@ The integral over a step of a moving beam is that of `path`.
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -28,7 +30,9 @@ from lasersph.lasers.reflectivity import (
     reflectivity_nodes,
 )
 from lasersph.materials import Material
-from lasersph.materials.hot_optics import HotOptics, hot_optics
+
+if TYPE_CHECKING:
+    from lasersph.materials.hot_optics import HotOptics
 
 Array = NDArray[np.float64]
 
@@ -230,6 +234,9 @@ class Laser(LaserKeys):
         """
         if self.has_own_reflectivity:
             return None
+        # loaded by runs alone, so that cases are read fast
+        from lasersph.materials.hot_optics import hot_optics
+
         wavelength = self._wavelength_in(material)
         found = hot_optics(material, wavelength)
         if found is None:

@@ -24,7 +24,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from lasersph.materials.material import Material
-from lasersph.materials.sections import ROOM, Electrons
+from lasersph.materials.sections import COLD_METAL, Electrons
 
 Array = NDArray[np.float64]
 SPEED_OF_LIGHT = 299792458.0
@@ -73,7 +73,7 @@ def hot_optics(material: Material, wavelength: float | None) -> HotOptics | None
     assert wavelength is not None
     omega = 2.0 * pi * SPEED_OF_LIGHT / wavelength
     # from rates that change nothing to those of electrons that hit every atom
-    cold = float(electrons.collisions_at(ROOM, ROOM))
+    cold = float(electrons.collisions_at(COLD_METAL, COLD_METAL))
     top = min(electrons.highest_collision_rate or np.inf, max(MOST * omega, 2.0 * cold))
     rate = np.geomspace(LEAST * cold, top, NODES)
     index = refraction_of(rate, cold, refraction, omega, electrons.plasma_frequency)

@@ -140,7 +140,11 @@ class Optics(Sourced):
 
     def refraction_at(self, wavelength: float | None) -> complex | None:
         """n + i k at a wavelength [m]; None where they are not given, or R goes before them."""
-        if wavelength is None or self.reflectivity is not None:
+        own = self.wavelength
+        # numbers for every wavelength, or for this light, go before the tables
+        if wavelength is None or (self.reflectivity is not None and own is None):
+            return None
+        if own is not None and is_same_light(own, wavelength):
             return None
         for name, light in self.by_wavelength.items():
             if is_same_light(parse_quantity(name, "length"), wavelength):

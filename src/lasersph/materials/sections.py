@@ -47,7 +47,7 @@ from lasersph.materials.uncertainty import Uncertainty, checked_uncertainty
 Array = NDArray[np.float64]
 GAS_CONSTANT = 8.314462618
 """Molar gas constant [J/(mol K)] (CODATA 2018)."""
-ROOM = 300.0
+COLD_METAL = 300.0
 """Temperature of a cold metal [K]. Format: at which n and k are measured."""
 
 
@@ -269,9 +269,9 @@ class Electrons(Sourced):
             text = "says nothing without collision_rate and plasma_frequency; leave it out"
             raise refusal(("highest_collision_rate", text))
         # the rate at room temperature is that of the cold metal
-        cold = rate * (ROOM + (self.scattering or 0.0) * ROOM**2)
+        cold = rate * (COLD_METAL + (self.scattering or 0.0) * COLD_METAL**2)
         if highest <= cold:
-            text = f"must lie above the {cold:.3g} 1/s of the metal at {ROOM:.0f} K"
+            text = f"must lie above the {cold:.3g} 1/s of the metal at {COLD_METAL:.0f} K"
             raise refusal(("highest_collision_rate", text))
         return self
 
