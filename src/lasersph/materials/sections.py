@@ -225,6 +225,7 @@ class Electrons(Sourced):
         default=None,
         gt=0,
         description="of electrons that collide from atom to atom; default: none",
+        examples=["1.1e16 1/s"],
     )
     lattice_share: Fraction | None = Field(
         default=None,
