@@ -244,7 +244,7 @@ class Laser(LaserKeys):
         # an absorption that is given here stays as it is
         if self.absorption.kind == "surface" or self.absorption.absorption_coefficient is not None:
             found = found.in_depth(1.0 / self.absorption_coefficient(material))
-        return found.carried(reach)
+        return found.with_range(reach)
 
     def _lit(self, material: Material) -> Material:
         """The metal with its optics for this light.

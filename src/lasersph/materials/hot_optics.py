@@ -54,7 +54,7 @@ class HotOptics:
         nu = self.electrons.collisions_at(T_e, T_l)
         return np.interp(nu, self.rate, self.reflectivity), np.interp(nu, self.rate, self.depth)
 
-    def carried(self, reach: float) -> HotOptics:
+    def with_range(self, reach: float) -> HotOptics:
         """The same, with light carried deeper by a range of electrons [m]."""
         return replace(self, depth=self.depth + reach)
 
