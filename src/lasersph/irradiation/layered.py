@@ -95,7 +95,7 @@ class LayeredLight:
             that heat changes by the temperature alone.
     """
 
-    collisions: dict[str, float] | None = None
+    collisions: dict[str, Any] | None = None
 
     def __init__(
         self, backend: Backend, laser: Laser | None, material: Material, filling: Filling

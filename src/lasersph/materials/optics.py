@@ -149,8 +149,9 @@ class Optics(Sourced):
         for name, light in self.by_wavelength.items():
             if is_same_light(parse_quantity(name, "length"), wavelength):
                 n, k = light.refractive_index, light.extinction_coefficient
-                is_theirs = n is not None and k is not None and light.reflectivity is None
-                return complex(n, k) if is_theirs else None
+                if n is None or k is None or light.reflectivity is not None:
+                    return None
+                return complex(n, k)
         return None
 
     def at(self, wavelength: float | None) -> Optics:
