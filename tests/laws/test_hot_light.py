@@ -50,6 +50,19 @@ def test_books_of_a_reflectivity_that_falls(tmp_path):
     assert seen["absorbed"] > 2.5 * (1.0 - 0.9725) * 8000.0
 
 
+def test_on_every_backend(tmp_path, backend):
+    """What the particles take of the light, summed, is what enters and does not pass."""
+    solver = solver_of(case_of(tmp_path, *COPPER, *FLAT), backend=backend)
+    light = solver.body.light
+    light.shine(0.45e-12, 0.5e-12)
+    rates = backend.asarray(np.full(solver.body.count, 1e15))
+    absorbed = float(light.absorb(rates))
+    lost = energies(light, absorbed)["unassigned"]
+    assert lost == pytest.approx(0.0, abs=1e-6 * light.incident)
+    assert absorbed == pytest.approx(float(backend.to_host(light.deposit).sum()), rel=1e-6)
+    assert 0.1 < absorbed / light.incident < 0.2
+
+
 def test_electrons_that_change_nothing(tmp_path):
     """With next to no free electrons, light is that of cold metal: the run with R of its n and k,
     to rounding."""
