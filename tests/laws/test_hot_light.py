@@ -108,7 +108,7 @@ def test_particles_that_have_moved(tmp_path):
     """Melt that lies elsewhere takes all the light of its columns, whatever its collisions."""
     case = case_of(
         tmp_path, *COPPER, *FLAT, "solver.kind=melt-pool", "solver.dimensions=2",
-        "solver.flow.surface=flat", "domain.width=0.2 um", "domain.depth=0.5 um",
+        "solver.flow.surface=flat", "domain.width=0.2 um", "domain.depth=2 um",
         "particles.arrangement=uniform", "particles.fine_depth=", "particles.coarsest=",
         "particles.ratio=",
     )  # fmt: skip
@@ -121,6 +121,14 @@ def test_particles_that_have_moved(tmp_path):
     assert energies(light, on_lattice)["unassigned"] == pytest.approx(
         0.0, abs=1e-12 * light.incident
     )
+    # in cells, where they have not moved: each what it takes on the lattice
+    lattice = np.array(backend.to_host(light.deposit))
+    solver.advect(0.0)
+    solver.state.time = 0.45e-12
+    solver.illuminate(0.05e-12)
+    light.absorb(rates)
+    found = np.array(backend.to_host(light.deposit))
+    assert found == pytest.approx(lattice, rel=1e-9, abs=1e-12 * lattice.max())
     place = np.array(backend.to_host(solver.position))
     moved = np.random.default_rng(1).uniform(-4e-9, 4e-9, place.shape)
     x, z = place + moved * (place[-1] > -1e-7)
