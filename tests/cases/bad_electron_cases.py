@@ -5,6 +5,8 @@ KIND = 'kind = "conduction"'
 HEAT = KIND + '\nheat = "two-temperature"'
 METAL = 'material = "steel-304-demuth"'
 IRON = ", electrons = { heat_capacity = %s, coupling = %s } }"
+COLLIDING = ', electrons = { heat_capacity = "2e4 J/(m^3 K)", coupling = "2e16 W/(m^3 K)", %s } }'
+RATES = 'collision_rate = "1e11 1/(K s)", plasma_frequency = "1e16 rad/s", highest_collision_rate = "%s"'
 CHANGED = 'material = { base = "steel-304-demuth"'
 
 BAD_ELECTRON_CASES = {
@@ -32,6 +34,31 @@ BAD_ELECTRON_CASES = {
         METAL,
         CHANGED + IRON % ('"20 J/(kg K)"', '"2e16 W/(m^3 K)"'),
         ':2: material.electrons.heat_capacity: "20 J/(kg K)" is a specific heat, not a volumetric heat; write e.g. "2.1e4 J/(m^3 K)"',
+    ),
+    "collisions without a plasma": (
+        METAL,
+        CHANGED + COLLIDING % 'collision_rate = "1e11 1/(K s)"',
+        ":2: material.electrons: collision_rate and plasma_frequency go together; give both",
+    ),
+    "a limit of no collisions": (
+        METAL,
+        CHANGED + COLLIDING % 'highest_collision_rate = "1e16 1/s"',
+        ":2: material.electrons.highest_collision_rate: says nothing without collision_rate and plasma_frequency; leave it out",
+    ),
+    "fewer collisions than in cold metal": (
+        METAL,
+        CHANGED + COLLIDING % RATES % "1e13 1/s",
+        ":2: material.electrons.highest_collision_rate: must lie above the 3e+13 1/s of the metal at 300 K",
+    ),
+    "a collision rate of two units": (
+        METAL,
+        CHANGED + COLLIDING % 'collision_rate = "1e14 1/s", plasma_frequency = "1e16 rad/s"',
+        ':2: material.electrons.collision_rate: "1e14 1/s" is a frequency, not a collision rate; write e.g. "1.23e11 1/(K s)"',
+    ),
+    "a plasma of no angle": (
+        METAL,
+        CHANGED + COLLIDING % 'collision_rate = "1e11 1/(K s)", plasma_frequency = "-1e16 rad/s"',
+        ':2: material.electrons.plasma_frequency: must be greater than 0, got "-1e16 rad/s"',
     ),
     "electrons that cool as they heat": (
         METAL,

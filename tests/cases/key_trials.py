@@ -308,6 +308,7 @@ GIVEN_ELECTRONS = (
     "material.electrons={ heat_capacity = '3e5 J/(m^3 K)', coupling = '1e18 W/(m^3 K)', "
     "conductivity = '80 W/(m K)' }"
 )
+COLLIDING = "{ collision_rate = '1e11 1/(K s)', plasma_frequency = '1e16 rad/s' }"
 
 
 def properties() -> dict[str, Property]:
@@ -336,8 +337,17 @@ def properties() -> dict[str, Property]:
         "lattice_share": "0.5",
         "ballistic_range": "0.5 um",
     }
+    # what hot electrons take up of the light of a wavelength, n and k of which are known
+    hot = (f"material={{ base = 'steel-304', electrons = {COLLIDING} }}", "laser.reflectivity=")
+    hot += ("laser.wavelength=1064 nm", *DEEP, "solver.heat=two-temperature", "time.step=10 ps")
+    colliding = {
+        "collision_rate": "1e13 1/(K s)",
+        "plasma_frequency": "3e16 rad/s",
+        "highest_collision_rate": "1e14 1/s",
+    }
     beside = (*MELT, *DEEP, "solver.heat=two-temperature", "time.step=10 ps")
     found |= {f"electrons.{key}": ("column", value, beside) for key, value in electrons.items()}
+    found |= {f"electrons.{key}": ("column", value, hot) for key, value in colliding.items()}
     # given as a law, instead of by what scatters them, for a metal without electrons of its own
     law = tuple(one for one in beside if not one.startswith("material="))
     law += ("material={ base = 'steel-316l' }", "laser.wavelength=1064 nm", GIVEN_ELECTRONS)

@@ -83,6 +83,21 @@ def short_pulse(backend):
     return found_by(solver)
 
 
+def short_pulse_on_melt(backend):
+    """Electrons and lattice in a pool, whose light follows particles wherever they are."""
+    settings = ("solver.kind=melt-pool", "solver.dimensions=2", "solver.flow.surface=flat")
+    settings += ("particles.spacing=10 nm", "domain.width=60 nm", "laser.fluence=0.2 J/cm^2")
+    settings += ("particles.fine_depth=100 nm",)
+    _, solver = solver_of("short-pulse-gold", *settings, backend=backend)
+    go(solver, 40)
+    light = solver.body.light
+    light.shine(solver.state.time, solver.state.time + 1e-14)
+    for _ in range(3):
+        light.distribute(solver.position, solver._depth, solver.surface_columns)
+        light.absorb(backend.asarray(np.full(solver.body.count, 2e14)))
+    return found_by(solver)
+
+
 def heated_cube(backend):
     """A box in three dimensions with a warm and a cold wall."""
     settings = ("particles.spacing=0.125 m", "time.end=1 s", "time.step=0.1 s")
@@ -105,7 +120,7 @@ def stiff_heat(backend):
 
 SPOTS = (spot_in_section, moving_spot)
 CASES = (heated_box, heated_cube, flat_pool, lit_pool, moving_pool, lit_steel, short_pulse)
-CASES += (*SPOTS, stiff_heat)
+CASES += (*SPOTS, short_pulse_on_melt, stiff_heat)
 
 
 @pytest.fixture(scope="module")

@@ -97,6 +97,8 @@ def _draw(material: Material, file: Path) -> None:
 HOT_ELECTRONS = 3e4
 """Temperature up to which laws of electrons without an end are shown [K]. Display: that at which
 the shipped tables end."""
+SHOWN_HOT = (5e3, 1e4, 2e4)
+"""Temperatures of electrons whose reflectivity is shown [K]. Display: under light of some fs."""
 
 
 def _values(material: Material, name: str, law: Law[Any]) -> str:
@@ -149,7 +151,17 @@ def _rows(material: Material) -> list[tuple[str, str, str, str]]:
             },
         ),
         ("optics", {"absorption_coefficient": "1/m", "wavelength": "m", "emissivity": ""}),
-        ("electrons", {"scattering": "1/K", "lattice_share": "", "ballistic_range": "m"}),
+        (
+            "electrons",
+            {
+                "scattering": "1/K",
+                "collision_rate": "1/(K s)",
+                "plasma_frequency": "rad/s",
+                "highest_collision_rate": "1/s",
+                "lattice_share": "",
+                "ballistic_range": "m",
+            },
+        ),
     ):
         section = getattr(material, group)
         for name, unit in units.items():
@@ -174,6 +186,21 @@ def _electron_rows(material: Material) -> list[tuple[str, str, str, str]]:
         values = [f"{float(law.at(T)):.4g}" for T in ends]
         text = values[0] if law.is_constant else " ... ".join(values)
         rows.append((f"electrons, {name}", f"{text} {unit}", _span(law), law.source))
+    return rows + _hot_light_rows(material)
+
+
+def _hot_light_rows(material: Material) -> list[tuple[str, str, str, str]]:
+    """Reflectivity that hot electrons have in a cold lattice, at each wavelength."""
+    from lasersph.materials.hot_optics import hot_optics
+    from lasersph.materials.optics import in_nanometers
+
+    rows, cold = [], material.reference_temperature
+    for wavelength in material.optics.wavelengths() if material.optics else ():
+        if (optics := hot_optics(material, wavelength)) is not None:
+            values = [f"{float(optics.at(T, cold)[0]):.3g}" for T in (cold, *SHOWN_HOT)]
+            name = f"electrons, reflectivity at {in_nanometers(wavelength)}"
+            span = f"{cold:g} ... {SHOWN_HOT[-1]:g} K"
+            rows.append((name, " ... ".join(values), span, "n and k, with plasma_frequency"))
     return rows
 
 

@@ -165,6 +165,8 @@ _ALL = (
     Kind("pressure", "Pa", "101325 Pa", dimension(m=-1, kg=1, s=-2), refuses=frozenset({ENERGY})),
     Kind("heat_transfer_coefficient", "W/(m^2 K)", "20 W/(m^2 K)", dimension(kg=1, s=-3, K=-1)),
     Kind("frequency", "Hz", "10 kHz", dimension(s=-1)),
+    Kind("angular_frequency", "rad/s", "1.2e16 rad/s", dimension(s=-1, rad=1)),
+    Kind("collision_rate", "1/(K s)", "1.23e11 1/(K s)", dimension(s=-1, K=-1)),
     Kind("fraction", "1", "25 %", NONE),
 )
 KINDS: dict[str, Kind] = {kind.name: kind for kind in _ALL}

@@ -90,8 +90,12 @@ class LayeredLight:
 
     Attributes:
         deposit: (n,) absorbed in the step [J]. incident: what falls on the surface, reflected: what
-            it throws back, transmitted: what passes through the bottom [J].
+            it throws back, transmitted: what passes through the bottom [J]. collisions: constants
+            of the rate of collisions that `absorb` takes instead of temperatures; None for light
+            that heat changes by the temperature alone.
     """
+
+    collisions: dict[str, Any] | None = None
 
     def __init__(
         self, backend: Backend, laser: Laser | None, material: Material, filling: Filling
@@ -257,18 +261,27 @@ class LayeredLight:
     @graph
     def find_shares(self) -> None:
         """Shares of the particles in their columns."""
-        backend, fine, cells = self.backend, self._fine, self._cells
-        # tau_k of the cells
+        backend, cells = self.backend, self._cells
+        fields = self._thickness()
+        # s_k over the cover of the cells
+        light = backend.zeros(cells + 1)
+        out = backend.head(light, cells)
+        backend.pointwise(light_per_cover, fields, out, tau_one=self._tau_one)
+        self._share_cells(light)
+
+    def _thickness(self) -> dict[str, Array]:
+        """tau_k of the cells, and the sum of it and all above."""
+        backend, cells = self.backend, self._cells
         tau, part = backend.zeros(cells + 1), backend.zeros(cells)
         inner, one = backend.head(tau, cells), self._tau_one
         for (_, _, cover), members in zip(self._corners, self._members, strict=True):
             backend.pair_sum(optical_thickness, members, {"cover": cover}, part, tau_one=one)
             backend.pointwise(add, {"a": inner, "b": part}, inner)
-        # s_k over the cover of the cells
-        light = backend.zeros(cells + 1)
-        fields = {"tau": inner, "total": self._sums_from_above(inner)}
-        backend.pointwise(light_per_cover, fields, backend.head(light, cells), tau_one=one)
+        return {"tau": inner, "total": self._sums_from_above(inner)}
 
+    def _share_cells(self, light: Array) -> None:
+        """Shares from the light of each cell over the cover in it."""
+        backend, fine = self.backend, self._fine
         # s_ik: what a particle takes of each of its columns, upper and lower cell together
         pairs = zip(self._corners[::2], self._corners[1::2], strict=True)
         for own, (upper, lower) in zip(self._moving, pairs, strict=True):
@@ -307,6 +320,11 @@ class LayeredLight:
             total, other, distance = other, total, 2 * distance
         return total
 
+    def _find_entering(self, fields: dict[str, Array], shares: dict[str, Array]) -> None:
+        """Set the light that enters the columns; reduces what is reflected and transmitted [J]."""
+        out, reduce = (self.columns, None, None), (None, "sum", "sum")
+        self.backend.pointwise(enter_column, fields, out, reduce=reduce, **self._entering)
+
     def absorb(self, temperature: Array) -> float:
         """Set `deposit`, `reflected` and `transmitted` [J] from the temperatures (n,) [K] of the
         particles at the surface; returns the sum of the deposits [J]."""
@@ -339,12 +357,9 @@ class LayeredLight:
 
         Reduces what is reflected, transmitted and absorbed [J].
         """
-        backend, names = self.backend, (None, "sum", "sum")
-        fields = {"T_s": backend.head(T_s, self.columns.shape[0])}
-        fields |= {"F": self.fluence, "area": self._area}
-        out = (self.columns, None, None)
-        backend.pointwise(enter_column, fields, out, reduce=names, **self._entering)
-        table = {"columns": self.columns}
+        backend, table = self.backend, {"columns": self.columns}
+        fields = {"F": self.fluence, "area": self._area}
+        self._find_entering(fields | {"T_s": backend.head(T_s, self.columns.shape[0])}, shares)
         if "share" in shares:
             backend.pointwise(absorb_light, shares, self.deposit, reduce=("sum",), **table)
             return

@@ -15,6 +15,8 @@ The integral over a step of a moving beam is that of `path`.
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -28,6 +30,9 @@ from lasersph.lasers.reflectivity import (
     reflectivity_nodes,
 )
 from lasersph.materials import Material
+
+if TYPE_CHECKING:
+    from lasersph.materials.hot_optics import HotOptics
 
 Array = NDArray[np.float64]
 
@@ -220,14 +225,39 @@ class Laser(LaserKeys):
         absorption = BeerLambertAbsorption(absorption_coefficient=1.0 / depth)
         return self.model_copy(update={"absorption": absorption})
 
+    def hot_optics(self, material: Material, reach: float = 0.0) -> HotOptics | None:
+        """R and depth of this light in a metal with hot electrons; None where the metal lacks what
+        that needs, or the laser a reflectivity of its own.
+
+        Args:
+            reach: ballistic range of the electrons [m], beside the depth.
+        """
+        if self.has_own_reflectivity:
+            return None
+        # loaded by runs alone, so that cases are read fast
+        from lasersph.materials.hot_optics import hot_optics
+
+        wavelength = self._wavelength_in(material)
+        found = hot_optics(material, wavelength)
+        if found is None:
+            return None
+        # an absorption that is given here stays as it is
+        if self.absorption.kind == "surface" or self.absorption.absorption_coefficient is not None:
+            found = found.in_depth(1.0 / self.absorption_coefficient(material))
+        return found.with_range(reach)
+
     def _lit(self, material: Material) -> Material:
         """The metal with its optics for this light.
 
         Without a wavelength of the laser that of interfering waves chooses, but only where the
         metal has no numbers for a light that is not named here.
         """
+        return material.in_light(self._wavelength_in(material))
+
+    def _wavelength_in(self, material: Material) -> float | None:
+        """Wavelength for which the optics of a metal are taken [m]; None where they name none."""
         wavelength, optics = self.wavelength, material.optics
         must_choose = optics is not None and optics.by_wavelength and optics.wavelength is None
         if wavelength is None and must_choose:
             wavelength = self.beam.pattern_wavelength
-        return material.in_light(wavelength)
+        return wavelength

@@ -138,6 +138,22 @@ class Optics(Sourced):
         own = [self.wavelength] if self.wavelength is not None else []
         return sorted([*own, *(parse_quantity(n, "length") for n in self.by_wavelength)])[::-1]
 
+    def refraction_at(self, wavelength: float | None) -> complex | None:
+        """n + i k at a wavelength [m]; None where they are not given, or R goes before them."""
+        own = self.wavelength
+        # numbers for every wavelength, or for this light, go before the tables
+        if wavelength is None or (self.reflectivity is not None and own is None):
+            return None
+        if own is not None and is_same_light(own, wavelength):
+            return None
+        for name, light in self.by_wavelength.items():
+            if is_same_light(parse_quantity(name, "length"), wavelength):
+                n, k = light.refractive_index, light.extinction_coefficient
+                if n is None or k is None or light.reflectivity is not None:
+                    return None
+                return complex(n, k)
+        return None
+
     def at(self, wavelength: float | None) -> Optics:
         """The numbers for light of a wavelength [m]; None: those that name none, or their own.
 

@@ -6,8 +6,12 @@ and a conductivity: a number, or that of the metal at T_l less the share s of th
     k_e = (1 - s) k(T_l) (T_e / T_l) (1 + a T_l) / (1 + a T_e^2 / T_l),    a = A / B
 
 that is C_e v^2 / (3 (A T_e^2 + B T_l)) with C_e ~ T_e [Ivanov2003, eq. (4)], scaled so that both
-temperatures together conduct as the metal does. Left out: other changes of k_e and G with the
-temperature of the lattice, and with magnetic order.
+temperatures together conduct as the metal does. They collide at the rate
+
+    nu = A T_e^2 + B T_l = B (T_l + a T_e^2),    at most nu_max
+
+which takes light up in `hot_optics`. Left out: other changes of k_e and G with the temperature of
+the lattice, and with magnetic order.
 """
 
 from __future__ import annotations
@@ -20,10 +24,13 @@ from numpy.typing import ArrayLike, NDArray
 from pydantic import ConfigDict, Field, model_validator
 
 from lasersph.input import (
+    AngularFrequency,
+    CollisionRate,
     Conductivity,
     Coupling,
     Expansion,
     Fraction,
+    Frequency,
     Length,
     Model,
     MolarMass,
@@ -40,6 +47,8 @@ from lasersph.materials.uncertainty import Uncertainty, checked_uncertainty
 Array = NDArray[np.float64]
 GAS_CONSTANT = 8.314462618
 """Molar gas constant [J/(mol K)] (CODATA 2018)."""
+COLD_METAL = 300.0
+"""Temperature of a cold metal [K]. Format: at which n and k are measured."""
 
 
 class Sourced(Model):
@@ -203,6 +212,21 @@ class Electrons(Sourced):
         description="rate of collisions between electrons over that with the lattice, A/B, which "
         "bounds the default conductivity at high temperatures of the electrons",
     )
+    collision_rate: CollisionRate | None = Field(
+        default=None,
+        gt=0,
+        description="rate of collisions with the lattice over its temperature, B; with "
+        "plasma_frequency hot electrons change how much light n and k of the metal take up",
+    )
+    plasma_frequency: AngularFrequency | None = Field(
+        default=None, gt=0, description="of the free electrons, without transitions between bands"
+    )
+    highest_collision_rate: Frequency | None = Field(
+        default=None,
+        gt=0,
+        description="of electrons that collide from atom to atom; default: none",
+        examples=["1.1e16 1/s"],
+    )
     lattice_share: Fraction | None = Field(
         default=None,
         ge=0,
@@ -229,9 +253,35 @@ class Electrons(Sourced):
             raise refusal(
                 ("conductivity", "is a number here; leave it out for one that follows the metal's")
             )
-        if self.scattering is not None:
+        if self.scattering is not None and self.collision_rate is None:
             raise refusal(("scattering", "says nothing beside conductivity; leave one of them out"))
         return self
+
+    @model_validator(mode="after")
+    def _check_collisions(self) -> Electrons:
+        """Refuse half of what the optics of hot electrons need."""
+        rate, frequency = self.collision_rate, self.plasma_frequency
+        if (rate is None) != (frequency is None):
+            raise ValueError("collision_rate and plasma_frequency go together; give both")
+        highest = self.highest_collision_rate
+        if highest is None:
+            return self
+        if rate is None:
+            text = "says nothing without collision_rate and plasma_frequency; leave it out"
+            raise refusal(("highest_collision_rate", text))
+        # the rate at room temperature is that of the cold metal
+        cold = rate * (COLD_METAL + (self.scattering or 0.0) * COLD_METAL**2)
+        if highest <= cold:
+            text = f"must lie above the {cold:.3g} 1/s of the metal at {COLD_METAL:.0f} K"
+            raise refusal(("highest_collision_rate", text))
+        return self
+
+    def collisions_at(self, T_e: ArrayLike, T_l: ArrayLike) -> Array:
+        """Rate of collisions nu [1/s] at temperatures [K] of electrons and lattice, any shape; 0
+        without `collision_rate`."""
+        hot, cold = np.asarray(T_e, dtype=np.float64), np.asarray(T_l, dtype=np.float64)
+        rate = (self.collision_rate or 0.0) * (cold + (self.scattering or 0.0) * hot**2)
+        return np.minimum(rate, self.highest_collision_rate or np.inf)
 
     @property
     def hottest(self) -> float:

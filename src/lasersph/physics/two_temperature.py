@@ -89,6 +89,15 @@ def conductivity_with_scattering(e, h, T_e, T_l, h_nodes, k_nodes, ratio):
     return scattered_conductivity(interpolate(h - e, h_nodes, k_nodes), T_e, T_l, ratio)
 
 
+def collision_rate(T_e, T_l, B, ratio, lowest, highest):
+    """Rate of collisions of electrons nu [1/s], B (T_l + a T_e^2) between two ends [Ivanov2003].
+
+    Args:
+        B: with the lattice, over its temperature [1/(K s)]. ratio: a = A/B [1/K].
+    """
+    return min(max(B * (T_l + ratio * T_e * T_e), lowest), highest)
+
+
 def mean_weight(g_ij, k_i, k_j):
     """Weight of a pair toward T_e: g_ij times the mean conductivity [W/(m K) m^(d-2)]."""
     return 0.5 * g_ij * (k_i + k_j)

@@ -13,6 +13,7 @@ import numpy as np
 
 from lasersph.input import format_quantity
 from lasersph.materials import Law, Material
+from lasersph.materials.hot_optics import HotOptics, hot_optics
 from lasersph.materials.optics import in_nanometers
 
 if TYPE_CHECKING:
@@ -46,6 +47,7 @@ HOT_PANELS = (
 HOTTEST = 3e4
 """End of their panels [K]. Display: that of the shipped tables."""
 SLOPE = "surface_tension_slope"
+STYLES = ("-", "--", "-.", ":")
 PHASES = {"solid": "#e9ecef", "melting": "#ffe3b3", "liquid": "#fdeedd"}
 LINE = "#1f4e79"
 COLUMNS = 3
@@ -63,7 +65,8 @@ def material_figure(material: Material) -> Figure:
     panels = [
         panel for panel in PANELS if panel.name in properties or (panel.name == SLOPE and has_slope)
     ]
-    count = len(panels) + 2 + (0 if material.electrons is None else len(HOT_PANELS))
+    lights = _hot_lights(material)
+    count = len(panels) + 2 + (0 if material.electrons is None else len(HOT_PANELS)) + bool(lights)
     rows = -(-count // COLUMNS)
     notes = _source_lines(material, panels)
     height = 2.9 * rows + 0.15 * len(notes) + 1.0
@@ -86,6 +89,8 @@ def material_figure(material: Material) -> Figure:
     if material.electrons is not None:
         for number, panel in enumerate(HOT_PANELS, start=len(panels) + 2):
             _draw_electrons(figure.add_subplot(grid[divmod(number, COLUMNS)]), material, panel)
+    if lights:
+        _draw_hot_light(figure.add_subplot(grid[divmod(count - 1, COLUMNS)]), material, lights)
     figure.suptitle(material.title or material.name, x=0.075, y=1.0 - 0.2 / height, ha="left")
     options = {"fontsize": 7.5, "va": "top", "color": "0.25", "linespacing": 1.25}
     figure.text(0.075, (0.15 * len(notes) + 0.2) / height, "\n".join(notes), **options)
@@ -134,8 +139,31 @@ def _draw_electrons(axes: Axes, material: Material, panel: Panel) -> None:
     law: Law[Any] = getattr(material.electrons, panel.name)
     _draw_law(axes, law, (material.reference_temperature, HOTTEST), panel.factor)
     axes.set_ylim(bottom=0.0)
+    _label_electrons(axes, panel.label)
+
+
+def _hot_lights(material: Material) -> dict[str, HotOptics]:
+    """Optics of hot electrons by the name of their light, longest wave first."""
+    known = () if material.optics is None else material.optics.wavelengths()
+    found = {in_nanometers(light): hot_optics(material, light) for light in known}
+    return {name: optics for name, optics in found.items() if optics is not None}
+
+
+def _draw_hot_light(axes: Axes, material: Material, lights: dict[str, HotOptics]) -> None:
+    """Reflectivity over the temperature of the electrons, the lattice cold, of each light."""
+    cold = material.reference_temperature
+    T = np.linspace(cold, HOTTEST, 400)
+    for (name, optics), style in zip(lights.items(), STYLES * len(lights), strict=False):
+        axes.plot(T, optics.at(T, cold)[0], color=LINE, lw=1.6, ls=style, label=name)
+    axes.set_ylim(0.0, 1.0)
+    axes.legend(fontsize=8, frameon=False)
+    _label_electrons(axes, "reflectivity $R$ [1], cold lattice")
+
+
+def _label_electrons(axes: Axes, label: str) -> None:
+    """Axes over the temperature of the electrons."""
     axes.set_xlabel("temperature of the electrons [K]", fontsize=9)
-    axes.set_ylabel(panel.label, fontsize=9)
+    axes.set_ylabel(label, fontsize=9)
     axes.tick_params(labelsize=8)
     for side in ("top", "right"):
         axes.spines[side].set_visible(False)
@@ -285,7 +313,11 @@ def _source_lines(material: Material, panels: list[Panel]) -> list[str]:
         lines += textwrap.wrap(text, 165, subsequent_indent="      ")
     if material.electrons is not None:
         laws = material.electrons.heat_capacity, material.electrons.coupling
-        text = "Electrons: " + "; ".join(law.source for law in laws)
+        sources = [law.source for law in laws]
+        if _hot_lights(material):
+            frequency = material.electrons.source_of("plasma_frequency")
+            sources.append("reflectivity from n and k by the plasma frequency of " + frequency)
+        text = "Electrons: " + "; ".join(" ".join(source.split()) for source in sources)
         lines += textwrap.wrap(text, 165, subsequent_indent="      ")
     lines.append("")
     lines.append(

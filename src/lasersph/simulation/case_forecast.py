@@ -13,6 +13,7 @@ from lasersph.input.text_table import text_table
 from lasersph.materials.viscosity import viscosity_text
 from lasersph.physics.ablation_estimates import skin_fluence
 from lasersph.simulation.heating import HeatingForecast, reflectivity_at
+from lasersph.simulation.hot_electrons import optics_of_hot_electrons, vaporizing_fluence
 from lasersph.simulation.light_text import heating_rows, light_rows
 from lasersph.simulation.recipes import FlowForecast
 
@@ -168,5 +169,8 @@ def skin_estimate(case: Case) -> float | None:
     depth = 1.0 / case.laser.absorption_coefficient(case.material)
     depth += electrons.ballistic_range or 0.0
     heat = case.material.density_reference * float(curve.enthalpy_vaporized or 0.0)
+    # hot electrons take up more than cold metal
+    if (optics := optics_of_hot_electrons(case)) is not None:
+        return 1e-4 * vaporizing_fluence(case, optics, heat)
     absorptivity = 1.0 - reflectivity_at(case, case.initial_temperature)
     return 1e-4 * skin_fluence(depth, heat, absorptivity)

@@ -17,6 +17,7 @@ from lasersph.irradiation.light import COLDEST, HOTTEST
 from lasersph.physics.evaporation import saturation_pressure, vapor_constants
 from lasersph.physics.knudsen_layer import outflow_tables
 from lasersph.physics.losses import evaporation_loss
+from lasersph.simulation.hot_electrons import mean_reflectivity, optics_of_hot_electrons
 from lasersph.simulation.layers import KEPT_ESTIMATES, expected_heating
 
 TABLE_START = 300.0
@@ -35,7 +36,8 @@ class HeatingForecast:
     Attributes:
         cold, temperature: before and at its hottest [K]; the latter nan where a spot moves along
             the surface, which the columns of the estimate do not follow.
-        reflectivity: at both. absorbed_mean, absorbed_peak: fluence [J/m^2] with that of `cold`.
+        reflectivity: at both. of_pulse: with hot electrons, in the mean over the light of a pulse;
+            else None. absorbed_mean, absorbed_peak: fluence [J/m^2] with that, else that of `cold`.
         sideways: whether heat that flows out of the spot is left out, so that it gets less hot.
         melts, boils: whether it gets as hot as that; None for a metal without the temperature.
         held: metal that the heat kept at the boiling point would turn into vapor [m].
@@ -52,6 +54,7 @@ class HeatingForecast:
     boils: bool | None
     held: float
     evaporated: float
+    of_pulse: float | None = None
 
 
 def heating_forecast(case: Case, estimate: MeltEstimate | None) -> HeatingForecast | None:
@@ -61,6 +64,9 @@ def heating_forecast(case: Case, estimate: MeltEstimate | None) -> HeatingForeca
         return None
     hottest = float("nan") if estimate is None else estimate.temperature
     R = reflectivity_at(case, cold)
+    optics = optics_of_hot_electrons(case)
+    of_pulse = None if optics is None else mean_reflectivity(case, optics)
+    taken = 1.0 - (R if of_pulse is None else of_pulse)
     # Without phase change there is nothing to melt or boil.
     marks = (case.material.melting, case.material.vaporization)
     melting, boiling = marks if case.solver.phase_change else (None, None)
@@ -68,13 +74,14 @@ def heating_forecast(case: Case, estimate: MeltEstimate | None) -> HeatingForeca
         cold,
         hottest,
         (R, R if estimate is None else reflectivity_at(case, hottest)),
-        (1.0 - R) * laser.mean_fluence,
-        (1.0 - R) * laser.peak_fluence,
+        taken * laser.mean_fluence,
+        taken * laser.peak_fluence,
         laser.is_bounded,
         None if melting is None else hottest > melting.solidus,
         None if boiling is None else hottest >= boiling.temperature * (1.0 - 1e-9),
         0.0 if estimate is None else estimate.held,
         0.0 if estimate is None else estimate.evaporated,
+        of_pulse,
     )
 
 

@@ -16,6 +16,7 @@ from lasersph.case.solver_choice import has_two_temperatures
 from lasersph.irradiation.light import COLDEST, HOTTEST
 from lasersph.materials.caloric_curve import CaloricCurve
 from lasersph.particles.layers import Layers, stack
+from lasersph.simulation.hot_electrons import mean_reflectivity, optics_of_hot_electrons
 
 Array = NDArray[np.float64]
 ESTIMATE_COLUMNS = 8
@@ -150,7 +151,12 @@ def expected_heating(case: Case, vapor: Vapor | None = None) -> MeltEstimate | N
         return None
     # Hot electrons spread the heat before the lattice has it.
     if has_two_temperatures(case.solver):
+        optics = optics_of_hot_electrons(case)
         laser = laser.carried_by(case.material, electron_reach(case))
+        # and take up more of the light
+        if optics is not None:
+            reflectivity = mean_reflectivity(case, optics)
+            laser = laser.model_copy(update={"reflectivity": reflectivity})
         case = case.model_copy(update={"laser": laser})
 
     # A pattern needs columns from a bright line to a dark one, half a period apart; a spot only the

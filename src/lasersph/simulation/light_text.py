@@ -87,6 +87,8 @@ def heating_rows(case: Case, heating: HeatingForecast) -> list[tuple[str, str]]:
             ("section", "through the axis of the spot, its light the same at all y: a line focus")
         )
     beside = "" if isnan(hot) or hot_R == R else f", {hot_R:.3g} at {hot:.0f} K"
+    if heating.of_pulse is not None:
+        beside = f", {heating.of_pulse:.3g} with hot electrons, in the mean over the pulse"
     # An absorptivity over time is said as it is given, and its mean over the pulse.
     over_time = case.laser is not None and case.laser.absorbs_over_time
     if over_time:
@@ -96,6 +98,8 @@ def heating_rows(case: Case, heating: HeatingForecast) -> list[tuple[str, str]]:
     if isnan(hot):
         return rows
     means = "absorptivity in the mean" if over_time else f"reflectivity at {cold:.0f} K"
+    if heating.of_pulse is not None:
+        means = "reflectivity in the mean"
     rows.append(("absorbed fluence", f"{_absorbed(heating)}, with the {means}"))
     rows.append(("highest temperature", _highest(case, heating)))
     # Vapor leaves, or the surface keeps its boiling temperature.

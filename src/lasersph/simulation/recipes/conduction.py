@@ -16,6 +16,7 @@ from lasersph.observers import Observers, heat_observers
 from lasersph.observers.electron_view import ElectronView
 from lasersph.observers.view import View
 from lasersph.particles.filling import Filling
+from lasersph.simulation.hot_electrons import optics_of_hot_electrons
 from lasersph.simulation.recipes.recipe import Recipe, RunStage, SolverT, StepForecast
 from lasersph.solvers.conduction.body import assemble
 from lasersph.solvers.conduction.electron_body import with_electrons
@@ -60,6 +61,7 @@ class HeatRecipe(Recipe[HeatT, SolverT]):
             laser=self.light,
             curve=self.curve,
             use_second_moment=settings.weights == "second-moment",
+            hot=optics_of_hot_electrons(case),
         )
         pressure = case.boundaries.pressure_of_surroundings if settings.has_vapor_flux else 0.0
         others = settings, case.time, case.laser, pressure

@@ -13,11 +13,13 @@ from lasersph.boundaries import Boundaries
 from lasersph.boundaries.settings import Surroundings
 from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
+from lasersph.irradiation.hot_light import HotLight
 from lasersph.irradiation.layered import LayeredLight
 from lasersph.lasers import Laser
 from lasersph.linear_solvers.conjugate_gradient import PairOperator
 from lasersph.materials import Material
 from lasersph.materials.caloric_curve import CaloricCurve
+from lasersph.materials.hot_optics import HotOptics
 from lasersph.particles import Lattice
 from lasersph.particles.faces import ENDS
 from lasersph.particles.filling import DIRICHLET, FREE, MIRROR, PERIODIC, Filling, fill
@@ -93,8 +95,13 @@ def assemble(
     laser: Laser | None,
     curve: CaloricCurve,
     use_second_moment: bool,
+    hot: HotOptics | None = None,
 ) -> Body:
-    """Fill the domain, find the pairs, and assemble their weights."""
+    """Fill the domain, find the pairs, and assemble their weights.
+
+    Args:
+        hot: how hot electrons take up the light, where they change it.
+    """
     # particles with dummies beyond the faces, pairs and weights g_ij
     ends = {face: KINDS[boundaries.kind_of(face)] for face in ENDS}
     filling = fill(layers, sides=KINDS[boundaries.sides], **ends)
@@ -134,14 +141,18 @@ def assemble(
     particles = Particles(backend, count, layers.dimension, fields)
     particles.set("mass", material.density_reference * filling.body_volume)
 
-    # caloric curve as tables of the backend
+    # the light, and caloric curve as tables of the backend
+    if hot is None:
+        light = LayeredLight(backend, laser, material, filling)
+    else:
+        light = HotLight(backend, laser, material, filling, hot)
     body = Body(
         backend=backend,
         filling=filling,
         particles=particles,
         material=material,
         curve=curve,
-        light=LayeredLight(backend, laser, material, filling),
+        light=light,
         pairs=operator,
         wall_flow=backend.asarray(walls.flow),
         wall_heat=backend.asarray(walls.heat),

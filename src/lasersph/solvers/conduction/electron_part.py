@@ -21,7 +21,10 @@ LINEAR = 1e-9
 with it, and temperatures are off by a billionth."""
 MAX_LINEAR = 400
 """Linear iterations of a solve at most. Guard: some 15 are usual; energies are kept anyhow."""
-WORK = ("T", "T_l", "Q", "share", "C", "T_e", "k", "S", "sum", "gained", "P", "D", "a", "taken")
+WORK = (
+    *("T", "T_l", "Q", "share", "C", "T_e", "k", "S", "sum", "gained", "P", "D", "a", "taken"),
+    "nu",
+)
 """Work vectors by symbol."""
 
 
@@ -66,6 +69,7 @@ class ElectronPart:
             "G_T": backend.asarray(nodes.coupling_temperature),
             "G_nodes": backend.asarray(nodes.coupling),
         }
+        self.collisions = body.light.collisions
         self.k_nodes = backend.asarray(nodes.conductivity)
         self.is_constant = electrons.conductivity is not None
         self.ratio = electrons.scattering or 0.0
@@ -79,9 +83,9 @@ class ElectronPart:
         mass, light = body.particles["mass"], body.light
         self._take_pairs()
         self.prepare(mass, s)
-        # light and losses at the temperature of the lattice
+        # light by the collisions of the electrons, or like losses by the lattice's temperature
         light.shine(start, end)
-        absorbed = light.absorb(v["T_l"])
+        absorbed = light.absorb(v["T_l"] if self.collisions is None else v["nu"])
         lost, removed = self.exchange.evaluate(v["T_l"])
         power = self.exchange.power
 
@@ -118,6 +122,9 @@ class ElectronPart:
         backend.pointwise(
             terms.prepare_exchange, both | {"m": mass}, out, **tables, density=self.density, s=s
         )
+        if self.collisions is not None:
+            both_T = {"T_e": v["T_e"], "T_l": v["T_l"]}
+            backend.pointwise(terms.collision_rate, both_T, v["nu"], **self.collisions)
         if not self.is_constant:
             backend.pointwise(
                 terms.conductivity_with_scattering,

@@ -24,13 +24,14 @@ DRAWN = 1e-6
 
 
 def compare(study: Study) -> None:
-    """Judge the half space, the two limits, the energy, and thresholds beside measured ones."""
+    """Judge the half space, the two limits, the energy, and thresholds beside published ones."""
     half_space(study)
     strong_coupling(study)
     long_pulse(study)
     energy(study)
     ablation(study)
-    gold_film(study)
+    gold_coating(study)
+    films(study)
 
 
 def half_space(study: Study) -> None:
@@ -101,14 +102,8 @@ def ablation(study: Study) -> None:
     seen: set[str] = set()
     for one in study.plan.measured:
         metal, measured = one["metal"], one["threshold"]
-        settings = (
-            f"material={metal}",
-            f"laser.reflectivity={one['reflectivity']}",
-            f"laser.absorption.absorption_coefficient={one['absorption']} 1/m",
-            f"laser.fluence={measured} J/cm^2",
-            *study.plan.short,
-        )
-        case = study.case(*settings)
+        start = (f"material={metal}", *study.plan.short, f"laser.fluence={measured} J/cm^2")
+        case = study.case(*start, *light(one))
         words = {"metal": metal, "paper": one["source"]}
         add_threshold(study, "skin", skin_estimate(case), measured, **words)
         if "explodes" in one:
@@ -119,17 +114,49 @@ def ablation(study: Study) -> None:
             seen.add(metal)
 
 
-def gold_film(study: Study) -> None:
-    """Absorbed fluence that melts a free film, beside one of molecular dynamics."""
-    case = study.case(*study.plan.film)
-    electrons = case.material.electrons
-    assert electrons is not None and case.laser is not None
-    # what light and electrons' range leave in the film
-    reach = 1.0 / case.laser.absorption_coefficient(case.material)
-    reach += electrons.ballistic_range or 0.0
-    taken = 1.0 - float(np.exp(-case.domain.depth / reach))
-    found = 1e4 * taken * lowest(study, case, "melt", "gold-film")
-    add_threshold(study, "film", found, study.comparisons["film"].reference or 0.0)
+def light(one: dict[str, Any]) -> tuple[str, ...]:
+    """Settings of the light of an experiment: n and k that hot electrons change, or R and alpha."""
+    if "refraction" not in one:
+        return (
+            f"laser.reflectivity={one['reflectivity']}",
+            f"laser.absorption.absorption_coefficient={one['absorption']} 1/m",
+        )
+    n, k = one["refraction"]
+    optics = f"refractive_index = {n}, extinction_coefficient = {k}, source = 'see README'"
+    wavelength = one["wavelength"]
+    return (
+        f'material.optics.by_wavelength={{ "{wavelength}" = {{ {optics} }} }}',
+        f"laser.wavelength={wavelength}",
+    )
+
+
+def gold_coating(study: Study) -> None:
+    """Fluence from which gold melts, beside one that damages mirrors of gold."""
+    case = study.case(*study.plan.short, *study.plan.coating)
+    found = lowest(study, case, "melt", "gold-coating")
+    add_threshold(study, "damage", found, study.comparisons["damage"].reference or 0.0)
+
+
+def films(study: Study) -> None:
+    """Absorbed fluences that melt free films, beside published ones."""
+    for one in study.plan.films:
+        metal, depth = one["metal"], one["depth"]
+        case = study.case(
+            *study.plan.film,
+            f"material={metal}",
+            f"domain.depth={depth} nm",
+            f"laser.fluence={one['fluence']} J/m^2",
+            f"laser.absorption.absorption_coefficient={one['absorption']} 1/m",
+        )
+        electrons = case.material.electrons
+        assert electrons is not None and case.laser is not None
+        # what light and electrons' range leave in the film
+        reach = 1.0 / case.laser.absorption_coefficient(case.material)
+        reach += electrons.ballistic_range or 0.0
+        taken = 1.0 - float(np.exp(-case.domain.depth / reach))
+        found = 1e4 * taken * lowest(study, case, "melt", f"{metal}-film")
+        words = {"metal": metal, "depth": depth, "paper": one["source"]}
+        add_threshold(study, "film", found, one["threshold"], **words)
 
 
 def lowest(
