@@ -97,7 +97,10 @@ class _Trial:
 
     def __init__(self, document: Document) -> None:
         self.document = replace(
-            document, data=copy.deepcopy(document.data), lines=dict(document.lines)
+            document,
+            data=copy.deepcopy(document.data),
+            lines=dict(document.lines),
+            origins=dict(document.origins),
         )
         self._written: set[Path] = set()
         self._values: set[str] = set()
@@ -160,10 +163,11 @@ class _Trial:
         if isinstance(there, dict) and isinstance(value, dict):
             value = {**there, **value}
         table[target[-1]] = value
-        # A key that moved keeps its line.
-        for key, line in self.document.lines.copy().items():
-            if key[: len(path)] == path:
-                self.document.lines.setdefault((*target, *key[len(path) :]), line)
+        # A key that moved keeps its line, or the setting that it comes from.
+        for places in (self.document.lines, self.document.origins):
+            for key, place in places.copy().items():
+                if key[: len(path)] == path:
+                    places.setdefault((*target, *key[len(path) :]), place)
         return True
 
     def _remove(self, path: Path) -> bool:
