@@ -164,7 +164,8 @@ class _Trial:
             value = {**there, **value}
         table[target[-1]] = value
         # A key that moved keeps its line, or the setting that it comes from.
-        for places in (self.document.lines, self.document.origins):
+        tables: tuple[dict[Path, Any], ...] = (self.document.lines, self.document.origins)
+        for places in tables:
             for key, place in places.copy().items():
                 if key[: len(path)] == path:
                     places.setdefault((*target, *key[len(path) :]), place)
