@@ -155,8 +155,9 @@ def _resolution(case: Case, layers: Layers) -> Iterator[str]:
             f"spacings of {format_quantity(spacing, 'm', 3)}: take a finer spacing"
         )
 
-    # Light in depth: the energy of a layer is exact, but its shape is lost.
-    if 0.0 < length < spacing:
+    # Light in depth: the energy of a layer is exact, but its shape is lost; nothing is lost where
+    # heat spreads it over three spacings within the pulse.
+    if 0.0 < length < spacing > heat / 3.0:
         yield (
             f"the light is absorbed within {format_quantity(length, 'm', 3)}, less than one"
             f" spacing of {format_quantity(spacing, 'm', 3)}: its profile is not resolved, though"
