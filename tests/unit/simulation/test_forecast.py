@@ -10,6 +10,7 @@ from lasersph import compute
 from lasersph.case import Case, available_cases, load_case
 from lasersph.compute import search
 from lasersph.simulation import forecast
+from lasersph.simulation.known_loops import known_loops
 from lasersph.simulation.layers import lay_out
 from lasersph.simulation.recipes import recipe_of
 
@@ -79,6 +80,13 @@ def test_coarse_spacing_is_warned_of() -> None:
     assert any("the heat of a pulse reaches 229 nm" in w for w in found.warnings)
     found = forecast(load_case("dlip-steel", ["particles.spacing=32nm"]))
     assert not any("less than one spacing" in w for w in found.warnings)
+
+
+def test_what_a_first_run_pays_besides() -> None:
+    """The loops that a run of the kind is known to call, and how long they take to compile."""
+    case = load_case("dlip-steel")
+    words = f"compiles up to {known_loops(case)} loops, once: roughly 1 min 3"
+    assert known_loops(case) > 100 and words in str(forecast(case))
 
 
 def test_explicit_runs_are_bound_by_conduction() -> None:
