@@ -164,11 +164,8 @@ class _Trial:
             value = {**there, **value}
         table[target[-1]] = value
         # A key that moved keeps its line, or the setting that it comes from.
-        tables: tuple[dict[Path, Any], ...] = (self.document.lines, self.document.origins)
-        for places in tables:
-            for key, place in places.copy().items():
-                if key[: len(path)] == path:
-                    places.setdefault((*target, *key[len(path) :]), place)
+        _move_keys(self.document.lines, path, target)
+        _move_keys(self.document.origins, path, target)
         return True
 
     def _remove(self, path: Path) -> bool:
@@ -199,6 +196,13 @@ class _Trial:
             else:
                 return None
         return table if isinstance(table, dict | list) else None
+
+
+def _move_keys(places: dict[Path, Any], path: Path, target: Path) -> None:
+    """Note the place of each key below a path below its target too."""
+    for key, place in places.copy().items():
+        if key[: len(path)] == path:
+            places.setdefault((*target, *key[len(path) :]), place)
 
 
 def _line_of(finding: Finding, is_table: bool) -> tuple[Path, Any] | None:
