@@ -29,7 +29,6 @@ extensions = [
     "sphinx.ext.mathjax",
     "sphinx.ext.napoleon",
     "sphinx.ext.viewcode",
-    "sphinxcontrib.bibtex",
     "docstring_equations",
     "generated_pages",
     "units_in_tables",
@@ -37,9 +36,6 @@ extensions = [
 exclude_patterns = ["_build", "generated/*.md", "generated/ipython"]
 myst_enable_extensions = ["amsmath", "colon_fence", "deflist", "dollarmath"]
 myst_heading_anchors = 3
-bibtex_bibfiles = ["references.bib"]
-bibtex_reference_style = "author_year"
-bibtex_default_style = "plain"
 nb_execution_mode = "force"
 nb_execution_in_temp = True
 nb_execution_timeout = 600

@@ -130,5 +130,5 @@ def stop_and_resume(case, folder, steps):
         return len(done) == steps
 
     with pytest.raises(Stopped):
-        run(case, folder, threads=2, warn=None, should_stop=should_stop)
-    run(case, folder, resume=True, threads=2, warn=None)
+        run(case, folder, threads=2, warn=False, should_stop=should_stop)
+    run(case, folder, resume=True, threads=2, warn=False)

@@ -114,11 +114,11 @@ def test_settings_name_no_address():
 
 def test_built_pages_load_nothing_from_a_network(tmp_path):
     """Scripts, styles, fonts and pictures of a page with formulas are files beside it."""
-    for package in ("sphinx", "furo", "myst_nb", "sphinxcontrib.bibtex", "sphinx-mathjax-offline"):
+    for package in ("sphinx", "furo", "myst_nb", "sphinx-mathjax-offline"):
         pytest.importorskip(package)
     source, target = tmp_path / "source", tmp_path / "html"
     source.mkdir()
-    for name in ("conf.py", "references.bib", "_static", "_extensions"):
+    for name in ("conf.py", "_static", "_extensions"):
         copy = shutil.copytree if (DOCS / name).is_dir() else shutil.copy
         copy(DOCS / name, source / name)
     (source / "index.md").write_text(PAGE, encoding="utf-8")

@@ -1,4 +1,5 @@
-"""Texts of the documentation open no HTML tag: one that is never closed changes all of its page."""
+"""Texts of the documentation read on a code host as well, and open no HTML tag: one that is never
+closed changes all of its page."""
 
 import re
 import sys
@@ -18,6 +19,26 @@ TEXTS = {
     for file in sorted((ROOT / folder).rglob("*.md"))
     if "generated" not in file.parts
 } | {"keys of a summary": summary_keys(), "columns of a history": history_columns()}
+
+
+SPHINX_ONLY = re.compile(r"(?<!!)\[\]\([^)]*\)|\{cite:\w+\}`[^`]*`")
+"""Links without a text, and citations by a role: a code host shows nothing of the ones and the role
+of the others. Write [Start](start.md) and [Demuth & Lasagni 2020](references.md#demuth2020)."""
+INCLUDE = re.compile(r"^(.*)\n\n```\{include\}", re.MULTILINE)
+
+
+@pytest.mark.parametrize("name", TEXTS)
+def test_links_have_a_text(name):
+    """And citations too."""
+    assert [found[0] for found in SPHINX_ONLY.finditer(TEXTS[name])] == []
+
+
+@pytest.mark.parametrize("name", TEXTS)
+def test_what_is_put_in_is_told(name):
+    """A page says what stands where its source has an include, which a code host leaves empty."""
+    before = INCLUDE.findall(TEXTS[name])
+    assert len(before) == TEXTS[name].count("```{include}")
+    assert all(line.startswith("*`make docs` writes what follows here: ") for line in before)
 
 
 @pytest.mark.parametrize("name", TEXTS)

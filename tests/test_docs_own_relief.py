@@ -15,7 +15,7 @@ def test_metal_and_case_are_accepted(tmp_path, monkeypatch, capsys):
     assert main(["material", "check", "alsi.toml"]) == 0
     assert "no warnings" in capsys.readouterr().out
     assert main(["check", case.name]) == 0
-    assert "the case is right" in capsys.readouterr().out
+    assert "no mistake in the case" in capsys.readouterr().out
 
 
 def test_case_is_that_of_the_page(tmp_path):

@@ -76,5 +76,5 @@ def solve(b, tolerance=1e-4, *, most=200, at_least=1):
     row = next(line for line in constants_page(found).splitlines() if "A, B" in line)
     assert row == (
         "| `a.py: A, B` | 0.6, 2 | m/s | Ends of a range. *Guard*: "
-        "{cite:t}`Xu2009`, eq. (3) says so; `b | c` as well. |"
+        "[Xu et al. 2009](../references.md#xu2009), eq. (3) says so; `b | c` as well. |"
     )

@@ -14,6 +14,8 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import NamedTuple
 
+from references_page import anchor, entries, short_name
+
 from lasersph.plots import style
 
 ROOMS = {
@@ -42,6 +44,8 @@ KINDS = {
 }
 REASON = re.compile(rf"\b({'|'.join(KINDS)}): ")
 CITATION = re.compile(r"\[([A-Z]\w+?\d{4})(?:, ([^\]]+))?\]")
+CITATION_OR_SIGN = re.compile(rf"{CITATION.pattern}|([|*<>$\[\]^_])")
+WORKS = entries((Path(__file__).parents[1] / "references.bib").read_text(encoding="utf-8"))
 UNIT = re.compile(r" ?\[(?![A-Z]\w+?\d{4})([^\]]+)\]")
 
 
@@ -168,13 +172,18 @@ def _row(one: Constant, room: str) -> str:
 
 
 def _prose(text: str) -> str:
-    """A docstring as Markdown: citations by their role, and no bar that would end a cell."""
+    """A docstring as Markdown: citations as links, and no bar that would end a cell."""
 
-    def cite(found: re.Match[str]) -> str:
-        return f"{{cite:t}}`{found[1]}`" + (f", {found[2]}" if found[2] else "")
+    def written(found: re.Match[str]) -> str:
+        key, equation, sign = found.groups()
+        # a sign of Markdown stands for itself
+        if sign:
+            return f"\\{sign}"
+        link = f"[{short_name(WORKS[key])}](../references.md#{anchor(key)})"
+        return link + (f", {equation}" if equation else "")
 
-    parts = CITATION.sub(cite, text).split("`")
-    plain = (re.sub(r"([|*<>$\[\]^_])", r"\\\1", part) for part in parts[::2])
+    parts = text.split("`")
+    plain = (CITATION_OR_SIGN.sub(written, part) for part in parts[::2])
     code = iter(parts[1::2])
     return "".join(part + (f"`{inner}`" if (inner := next(code, "")) else "") for part in plain)
 

@@ -23,7 +23,7 @@ def test_half_a_period(tmp_path):
     found = {}
     for extent in ("full", "half"):
         case = load_case("dlip-steel", (*PERIOD, f"domain.extent={extent}"))
-        run(case, tmp_path / extent, threads=1, warn=None)
+        run(case, tmp_path / extent, threads=1, warn=False)
         found[extent] = open_run(tmp_path / extent)
     whole, half = found["full"], found["half"]
     assert (whole.summary["mirror_images"], half.summary["mirror_images"]) == (1, 2)

@@ -17,7 +17,7 @@ EARLY, LATE = ("time.end=46ns",), ("time.end=62ns", "output.snapshots.interval=4
 
 def compute(folder, *settings, **options):
     """Run or resume the small case without words."""
-    return run(small_case(*settings), folder, resume=True, threads=2, warn=None, **options)
+    return run(small_case(*settings), folder, resume=True, threads=2, warn=False, **options)
 
 
 @pytest.fixture(scope="module")

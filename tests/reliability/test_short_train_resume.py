@@ -20,7 +20,7 @@ TRAIN = (
 def train(tmp_path_factory):
     """The run from its begin to its end."""
     folder = tmp_path_factory.mktemp("train") / "whole"
-    run(load_case("texture-steel-10ps", TRAIN), folder, threads=2, warn=None)
+    run(load_case("texture-steel-10ps", TRAIN), folder, threads=2, warn=False)
     return folder
 
 

@@ -18,7 +18,7 @@ def whole(tmp_path_factory):
     """The case, and the folder of its run from begin to end."""
     folder = tmp_path_factory.mktemp("train")
     case = case_of(folder, *GOLD, *TRAIN)
-    run(case, folder / "whole", threads=2, warn=None)
+    run(case, folder / "whole", threads=2, warn=False)
     return case, folder / "whole"
 
 

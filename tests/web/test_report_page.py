@@ -100,6 +100,18 @@ def test_two_runs_beside_each_other_fit_a_telephone(page, tmp_path):
         assert len({y for y, _ in places}) == count
 
 
+def test_letters_of_figures_are_read_on_a_telephone(page, report):
+    """A figure keeps its size and is moved sideways, the page is not; the keyboard moves it too."""
+    page.set_viewport_size({"width": 390, "height": 800})
+    page.goto(report.as_uri())
+    figure = page.locator("figure").first
+    assert figure.locator("img").bounding_box()["width"] >= 640.0
+    assert figure.bounding_box()["width"] <= 390.0
+    assert page.evaluate("document.documentElement.scrollWidth") <= 390
+    assert figure.get_attribute("tabindex") == "0"
+    assert serious(page) == []
+
+
 def test_without_webgl_the_picture_leads(page_without_webgl, report, keep):
     """The page says so, and the still picture comes before the numbers."""
     page = page_without_webgl

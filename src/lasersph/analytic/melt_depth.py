@@ -49,15 +49,16 @@ class SurfaceHistory:
 class MeltEstimate:
     """Depth of the melt [m] (0 where nothing melts), first and last time there is some [s], the
     highest surface temperature [K]; times are nan where nothing melts, as before any light. What
-    evaporates, as a depth in the mean of the columns [m], 0 where that was not asked for. What a
-    plateau holds of the heat of vaporization, as the largest depth of metal that it would turn into
-    vapor [m]. And the surface over time, None where there is no light."""
+    evaporates, as a depth in the mean of the columns and where it is most [m], 0 where that was not
+    asked for. What a plateau holds of the heat of vaporization, as the largest depth of metal that
+    it would turn into vapor [m]. And the surface over time, None where there is no light."""
 
     depth: float
     start: float
     end: float
     temperature: float
     evaporated: float = 0.0
+    evaporated_most: float = 0.0
     held: float = 0.0
     surface: SurfaceHistory | None = field(default=None, repr=False)
 
@@ -159,12 +160,11 @@ def melt_depth(
         elif now >= times[-1]:
             # all has solidified and no light comes any more
             break
-    evaporated = float(np.mean(block.evaporated)) / density
+    gone = block.evaporated / density
+    left = float(gone.mean()), float(gone.max())
     time, temperatures, depths = (np.array(each) for each in zip(*steps, strict=True))
     history = SurfaceHistory(time, temperatures, depths, column_width)
-    return MeltEstimate(
-        float(deepest), float(start), float(end), hottest, evaporated, held, history
-    )
+    return MeltEstimate(deepest, float(start), float(end), hottest, *left, held, history)
 
 
 class _Curve:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TypeVar
 
@@ -11,8 +12,9 @@ from lasersph.case.case import Case
 from lasersph.case.contents import SCHEMA_VERSION, CaseContents
 from lasersph.case.conversion import convert
 from lasersph.case.overrides import moved_settings, override
-from lasersph.input import CaseError, build, nearest, read_toml
+from lasersph.input import CaseError, Document, Problem, build, nearest, read_toml
 from lasersph.input.document import with_settings
+from lasersph.input.findings import steps_of
 
 M = TypeVar("M", bound=CaseContents)
 LIBRARY = Path(__file__).parent / "cases"
@@ -100,7 +102,33 @@ class CaseFile:
 
     def _built(self, model: type[M], overrides: Sequence[str]) -> M:
         document = override(self.document, overrides)
-        return build(model, document, {"folder": Path(document.file).parent}, _other_words)
+        context = {"folder": Path(document.file).parent}
+        try:
+            return build(model, document, context, _other_words)
+        except CaseError as error:
+            # A file that is right without its settings is not what is wrong.
+            if not overrides or not self._is_right(model):
+                raise
+            raise CaseError([_blamed(one, document) for one in error.problems]) from None
+
+    def _is_right(self, model: type[M]) -> bool:
+        """Whether the file alone, without any settings, can be read."""
+        try:
+            build(model, self.document, {"folder": Path(self.document.file).parent})
+        except CaseError:
+            return False
+        return True
+
+
+def _blamed(problem: Problem, document: Document) -> Problem:
+    """A problem at a line of a file that is right by itself, with the settings that make it wrong:
+    those within the table of the problem, or all."""
+    if problem.file != document.file:
+        return problem
+    table = steps_of(problem.key)
+    within = [where for path, where in document.origins.items() if path[: len(table)] == table]
+    settings = ", ".join(dict.fromkeys(within or document.origins.values()))
+    return replace(problem, file=f"{settings} on {problem.file}")
 
 
 def _other_words() -> Mapping[str, str]:

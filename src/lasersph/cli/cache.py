@@ -62,5 +62,5 @@ def _fill(name: str) -> None:
         print(f"compiling the loops of {case.name}, about a minute", file=sys.stderr, flush=True)
 
     with TemporaryDirectory() as folder, Compiling(begun) as compiling:
-        simulation.run(case, Path(folder, "run"), warn=None)
+        simulation.run(case, Path(folder, "run"), warn=False)
     print(f"{case.name}: compiled {compiling.loops} loops in {compiling.seconds:.0f} s")

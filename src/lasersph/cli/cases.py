@@ -80,11 +80,11 @@ def check(
     from lasersph.simulation import check as check_case
 
     refuse_backend(backend, threads)
-    # Read, convert, forecast; the case is right once nothing has refused it.
+    # Read, convert, forecast; nothing is wrong with the keys once nothing has refused them.
     loaded = load_case(case, settings or (), quick=quick)
     say_what_moved(loaded)
     expected = check_case(loaded, threads=threads, backend=backend)
     print(expected)
-    print("the case is right" + ("; think about the warnings" if expected.warnings else ""))
+    print("no mistake in the case" + ("; think about the warnings" if expected.warnings else ""))
     if expected.flow is not None and expected.flow.unresolved and not quick:
         print("too coarse for its flow: lasersph run asks for --anyway or --quick")

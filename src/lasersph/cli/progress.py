@@ -22,6 +22,8 @@ REDRAW = 0.1
 """Shortest time between two drawings of the line [s]: terminals are slow."""
 USUAL_LOOPS = 150
 """Loops of a melt pool whose surface moves, which has most of them: 147 were counted."""
+LOOPS_OF_A_RATE = 10
+"""Loops after which it is said how long the others take: the first takes as long as ten."""
 LOOPS_OF_A_LINE = 25
 """Loops from one line about them to the next, where there is no terminal."""
 STILL_COMPILING = 20
@@ -127,13 +129,12 @@ class RunDisplay(ProgressDisplay["RunProgress"]):
     def compiled(self, compiling: Compiling) -> None:
         """Another loop is: how many now, and how long the rest may take."""
         self._steps_since_compiling = 0
-        # What is left at the rate so far, at most.
+        # What is left at the rate so far, at most; the first loops load the compiler as well.
         count, took = compiling.loops, compiling.seconds
-        remaining = max(self._loops - count, 0) * took / count
-        text = (
-            f"compiled {count} loops of up to {max(self._loops, count)} in {took:.0f} s, "
-            f"{remaining:.0f} s more at most"
-        )
+        text = f"compiled {count} loops of up to {max(self._loops, count)} in {took:.0f} s"
+        if count >= LOOPS_OF_A_RATE:
+            remaining = max(self._loops - count, 0) * took / count
+            text += f", {remaining:.0f} s more at most"
         if self.is_terminal:
             self._line = text[: shutil.get_terminal_size().columns - 1]
             _write(CLEAR + self._line)

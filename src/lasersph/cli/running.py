@@ -35,6 +35,7 @@ if TYPE_CHECKING:
     from lasersph.studies import Input
 
 RUNS = Path("runs")
+REPORT = "report.html"
 Precision = Annotated[
     Literal["float64", "float32"], typer.Option("--precision", help="Of the computation.")
 ]
@@ -151,6 +152,10 @@ def run(
         assess_uncertainty(loaded, folder, inputs=inputs, run=make, prepare=prepare, report=_say)
     else:
         make(loaded, folder)
+        # Nothing was computed, and its report shows all of it.
+        if resume and figures and _is_reported(folder):
+            print(f"{folder}: complete already; open {folder / REPORT} in a browser")
+            return
     _tell(folder)
     if figures:
         _draw(folder)
@@ -221,6 +226,12 @@ def _tell(folder: Path) -> None:
     found = open_run(folder)
     print(text_table(summary_rows(found.summary, found.uncertainty)))
     print(f"{folder}: complete")
+
+
+def _is_reported(folder: Path) -> bool:
+    """Whether the report of a complete run was written after its numbers."""
+    report, summary = folder / REPORT, folder / "summary.json"
+    return report.exists() and report.stat().st_mtime_ns >= summary.stat().st_mtime_ns
 
 
 def _draw(folder: Path) -> None:

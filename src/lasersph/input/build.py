@@ -97,7 +97,10 @@ class _Trial:
 
     def __init__(self, document: Document) -> None:
         self.document = replace(
-            document, data=copy.deepcopy(document.data), lines=dict(document.lines)
+            document,
+            data=copy.deepcopy(document.data),
+            lines=dict(document.lines),
+            origins=dict(document.origins),
         )
         self._written: set[Path] = set()
         self._values: set[str] = set()
@@ -160,10 +163,9 @@ class _Trial:
         if isinstance(there, dict) and isinstance(value, dict):
             value = {**there, **value}
         table[target[-1]] = value
-        # A key that moved keeps its line.
-        for key, line in self.document.lines.copy().items():
-            if key[: len(path)] == path:
-                self.document.lines.setdefault((*target, *key[len(path) :]), line)
+        # A key that moved keeps its line, or the setting that it comes from.
+        _move_keys(self.document.lines, path, target)
+        _move_keys(self.document.origins, path, target)
         return True
 
     def _remove(self, path: Path) -> bool:
@@ -194,6 +196,13 @@ class _Trial:
             else:
                 return None
         return table if isinstance(table, dict | list) else None
+
+
+def _move_keys(places: dict[Path, Any], path: Path, target: Path) -> None:
+    """Note the place of each key below a path below its target too."""
+    for key, place in places.copy().items():
+        if key[: len(path)] == path:
+            places.setdefault((*target, *key[len(path) :]), place)
 
 
 def _line_of(finding: Finding, is_table: bool) -> tuple[Path, Any] | None:

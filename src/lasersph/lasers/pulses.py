@@ -203,10 +203,13 @@ class GaussianPulse(PulseTrain):
 
     kind: Literal["gaussian"] = "gaussian"
     fwhm: PositiveTime = Field(description="full width at half maximum")
-    center: Time = Field(description="time of the (first) maximum", examples=["30 ns"])
+    center: Time = Field(
+        description="time of the (first) maximum, two fwhm or later", examples=["30 ns"]
+    )
 
     @model_validator(mode="after")
     def _check_center(self) -> GaussianPulse:
+        # Before time 0 lies Phi(-2 fwhm/sigma) = 1e-6 of the energy.
         if self.center < 2.0 * self.fwhm:
             raise ValueError(
                 f"a pulse of fwhm {format_quantity(self.fwhm, 's')} centered at "

@@ -109,6 +109,9 @@ def _completeness(material: Material) -> list[Finding]:
         found.append(Finding("note", "vaporization", "not given; nothing boils or ablates"))
     elif material.vaporization.molar_mass is None:
         found.append(Finding("note", "molar_mass", "not given; needed for evaporation"))
+    if material.vaporization is not None and material.vaporization.critical_temperature is None:
+        purpose = "vapor that leaves as a flux, and for where a pulse explodes metal"
+        found.append(Finding("note", "critical_temperature", f"not given; needed for {purpose}"))
     if not spectral and (material.optics is None or material.optics.absorption_coefficient is None):
         found.append(
             Finding("note", "absorption_coefficient", "not given; needed for Beer-Lambert")

@@ -52,7 +52,7 @@ class SurfaceSpeed(Observer):
         Quantity(
             "flow_surface_speed_max_m_s",
             "m/s",
-            "speed at the surface",
+            "speed at the surface (extrapolated)",
             largest="flow.surface_speed_max_m_s",
             at=("flow.surface_speed_max_x_m",),
             is_main=True,

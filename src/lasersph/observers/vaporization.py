@@ -54,8 +54,8 @@ class Vaporization(Observer):
         Quantity(
             "evaporated_max_m",
             "m",
-            "evaporated thickness",
-            largest="vaporization.evaporated_thickness_max_m",
+            "evaporated thickness, where most left",
+            end="vaporization.evaporated_thickness_max_m",  # it only grows
         ),
         Quantity(
             "evaporated_mean_m",
@@ -132,5 +132,5 @@ class Vaporization(Observer):
 
     def summary(self) -> dict[str, object]:
         """Nothing where the surface never reached T_v and nothing evaporated."""
-        is_seen = self.span.first is not None or self.peak["evaporated_max_m"].value > 0.0
+        is_seen = self.span.first is not None or self.last["evaporated_max_m"] > 0.0
         return super().summary() if is_seen else {}

@@ -334,9 +334,7 @@ def plot(run: RunOrFolder, name: str) -> Figure:
     return figure
 
 
-def draw_run(
-    folder: RunOrFolder, *, kind: str = "png", begun: Begun = lambda *_: None
-) -> list[Path]:
+def draw_run(folder: RunOrFolder, *, kind: str = "png", begun: Begun | None = None) -> list[Path]:
     """Draw all figures of a run into its folder `figures`; `plot` gives one of them.
 
         lasersph.draw_run("runs/dlip-steel", kind="svg")
@@ -359,7 +357,8 @@ def draw_run(
         target.mkdir(exist_ok=True)
         # Every figure that applies, in reading order; what is drawn next is said before.
         for count, drawing in enumerate(DRAWINGS):
-            begun(drawing.name, count, len(DRAWINGS))
+            if begun is not None:
+                begun(drawing.name, count, len(DRAWINGS))
             figure = _figure_of(run, shown, drawing)
             if figure is not None:
                 written.append(style.save(figure, target / f"{drawing.name}.{kind}"))

@@ -46,14 +46,15 @@ UNIT_BEHIND = re.compile(r"(?<=[0-9]) (?=\S)")
 """Blank behind a number, where no line may end."""
 TELLING_FIGURES = (
     "crater-3d",
-    "flow",
     "relief-section",
+    "surface-height",
+    "flow",
     "crater",
     "particles",
     "box-flow",
     "temperature",
 )
-"""Figures that show the pool or the crater, the most telling first."""
+"""Figures that show the relief, the crater or the pool, the most telling first."""
 
 
 def what_was_computed(run: Run) -> str:

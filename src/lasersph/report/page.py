@@ -68,7 +68,12 @@ details.subject > summary { font-weight: 600; }
   .numbers { grid-template-columns: repeat(5, 1fr); gap: 3mm; } .numbers dd { font-size: 11.5pt; }
   details.subject { border: 0; padding: 0; }
   details.subject::details-content { content-visibility: visible; height: auto; } }
-@media screen and (max-width: 40rem) { main { padding: 1.2rem; overflow-wrap: anywhere; }
+/* On a telephone a figure keeps the size at which its letters are read, and is moved sideways. */
+@media screen and (max-width: 40rem) { figure { overflow-x: auto; }
+  figure img { max-width: none; width: 42rem; }
+  figcaption { position: sticky; left: 0; }
+  figcaption::after { content: " Move it sideways to see all of it."; }
+  main { padding: 1.2rem; overflow-wrap: anywhere; }
   table { display: block; overflow-x: auto; }
   th, td { overflow-wrap: break-word; padding-right: .6rem; }
   td.moment { white-space: normal; min-width: 4.8em; }
@@ -123,7 +128,7 @@ def figure(image: Path, caption: str, number: int) -> str:
     # The image is inside the page, which needs no other file.
     data = base64.b64encode(image.read_bytes()).decode()
     return (
-        f'<figure id="{escape(image.stem)}"><img alt="{escape(caption)}"'
+        f'<figure id="{escape(image.stem)}" tabindex="0"><img alt="{escape(caption)}"'
         f' src="data:image/{image.suffix[1:]};base64,{data}">'
         f"<figcaption><b>Figure {number}.</b> {escape(caption)}</figcaption></figure>"
     )

@@ -41,7 +41,7 @@ GIVEN = "given: "
 
 
 def write_report(
-    folder: RunOrFolder, *, with_scene: bool = True, begun: Begun = lambda *_: None
+    folder: RunOrFolder, *, with_scene: bool = True, begun: Begun | None = None
 ) -> Path:
     """Draw the figures of a complete run and write its report.html.
 
@@ -71,9 +71,11 @@ def write_report(
     # Figures, the animation where anything moves, then the page.
     images = draw_run(folder, begun=begun)
     if is_moving(run):
-        begun("animation", len(DRAWINGS), len(DRAWINGS))
+        if begun is not None:
+            begun("animation", len(DRAWINGS), len(DRAWINGS))
         images.append(animate_run(folder))
-    begun("report", len(DRAWINGS), len(DRAWINGS))
+    if begun is not None:
+        begun("report", len(DRAWINGS), len(DRAWINGS))
     path = run.path / "report.html"
     with clear_errors("read", run.path):
         text = report_page(run, images, scene(run) if with_scene else "")

@@ -14,8 +14,13 @@ from lasersph.materials.viscosity import viscosity_text
 from lasersph.physics.ablation_estimates import skin_fluence
 from lasersph.simulation.heating import HeatingForecast, reflectivity_at
 from lasersph.simulation.hot_electrons import optics_of_hot_electrons, vaporizing_fluence
+from lasersph.simulation.known_loops import known_loops
 from lasersph.simulation.light_text import heating_rows, light_rows
 from lasersph.simulation.recipes import FlowForecast
+
+SECONDS_PER_LOOP = 0.6
+"""Time to compile a loop [s]. Forecast: 158 loops of `lasersph run dlip-steel --quick` in an empty
+cache took 96 s of processor time more than in a full one, on two cores."""
 
 
 @dataclass(frozen=True)
@@ -102,6 +107,10 @@ def _rows(expected: Forecast) -> list[tuple[str, str]]:
     # How much work that is.
     rows.append(("steps", f"about {expected.steps} to {format_quantity(case.time.end, 's')}"))
     rows.append(("time", time if backend == "cpu" else "not estimated for a graphics card"))
+    if loops := known_loops(case):
+        longer = format_duration(SECONDS_PER_LOOP * loops)
+        rows.append(("besides", "start and figures, some seconds each"))
+        rows.append(("first run", f"compiles up to {loops} loops, once: roughly {longer} more"))
     if (half := expected.half) is not None:
         longer = f"roughly {format_duration(half.wall_time)}"
         text = f"{half.particles} particles, {in_words(half.memory)}, {longer}"

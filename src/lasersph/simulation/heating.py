@@ -41,7 +41,7 @@ class HeatingForecast:
         sideways: whether heat that flows out of the spot is left out, so that it gets less hot.
         melts, boils: whether it gets as hot as that; None for a metal without the temperature.
         held: metal that the heat kept at the boiling point would turn into vapor [m].
-        evaporated: metal that leaves as vapor in a pulse [m].
+        evaporated: metal that leaves as vapor in a pulse where most does [m].
     """
 
     cold: float
@@ -80,7 +80,7 @@ def heating_forecast(case: Case, estimate: MeltEstimate | None) -> HeatingForeca
         None if melting is None else hottest > melting.solidus,
         None if boiling is None else hottest >= boiling.temperature * (1.0 - 1e-9),
         0.0 if estimate is None else estimate.held,
-        0.0 if estimate is None else estimate.evaporated,
+        0.0 if estimate is None else estimate.evaporated_most,
         of_pulse,
     )
 

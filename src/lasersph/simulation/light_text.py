@@ -105,7 +105,7 @@ def heating_rows(case: Case, heating: HeatingForecast) -> list[tuple[str, str]]:
     # Vapor leaves, or the surface keeps its boiling temperature.
     if heating.boils and case.solver.evaporates:
         gone = format_quantity(heating.evaporated, "m", 2)
-        rows.append(("vapor", f"leaves the surface, about {gone} of metal in a pulse"))
+        rows.append(("vapor", f"leaves the surface, up to about {gone} of metal in a pulse"))
     elif heating.boils and chooses_vaporization(case.solver):
         rows.append(("vapor", "none: the surface keeps its boiling temperature"))
     return rows

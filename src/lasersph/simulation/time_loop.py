@@ -42,6 +42,8 @@ END_SHARE = 1.0 - 1e-12
 
 Progress = Callable[[RunProgress], None]
 """Called after each step."""
+Warn = Callable[[str], None]
+"""Called with each warning."""
 
 
 @dataclass(frozen=True)
@@ -69,11 +71,6 @@ class RunWarning(UserWarning):
     """Read it before the numbers of a run are used."""
 
 
-def show_warning(text: str) -> None:
-    """Show a warning where `run` is called, as Python shows warnings."""
-    warnings.warn(text, RunWarning, stacklevel=4)
-
-
 def run(
     case: Case,
     out: str | Path,
@@ -88,9 +85,9 @@ def run(
     recipe: type[Recipe[Any, Any]] | None = None,
     observers: Sequence[Observer] = (),
     progress: Progress | bool = False,
-    warn: Callable[[str], None] | None = show_warning,
+    warn: Warn | bool = True,
     anyway: bool = False,
-    should_stop: Callable[[], bool] = lambda: False,
+    should_stop: Callable[[], bool] | None = None,
 ) -> Result:
     """Compute a case into a run folder.
 
@@ -113,8 +110,8 @@ def run(
         observers: of one's own, beside those of the recipe.
         progress: True prints ten lines on standard error, with the time that is left; a function
             is called with a `RunProgress` after each step.
-        warn: called with each warning, before the first step and at the end; None where it is
-            enough that run.log and the summary hold them.
+        warn: True shows warnings as Python does, each a `RunWarning`, False leaves them to run.log
+            and the summary; a function is called with the text of each.
         anyway: start what needs more memory than there is; a warning says so.
         should_stop: asked after each step; True writes a checkpoint and raises `Stopped`.
 
@@ -167,10 +164,13 @@ def run(
         folder.close()
 
 
-def _say_each(texts: Iterable[str], warn: Callable[[str], None] | None) -> None:
-    """Hand on warnings to who shows them."""
-    if warn is not None:
-        for text in texts:
+def _say_each(texts: Iterable[str], warn: Warn | bool) -> None:
+    """Hand on warnings to who shows them: Python's own way, a function, or nobody."""
+    for text in texts:
+        if warn is True:
+            # shown at the line that calls `run`
+            warnings.warn(text, RunWarning, stacklevel=3)
+        elif warn:
             warn(text)
 
 
@@ -228,7 +228,7 @@ class _Loop:
             if text not in known:
                 self.folder.warn(text, time, self.steps)
 
-    def go(self, progress: Progress | None, should_stop: Callable[[], bool]) -> None:
+    def go(self, progress: Progress | None, should_stop: Callable[[], bool] | None) -> None:
         """Step until the end of the case."""
         state, end = self.solver.state, self.case.time.end
         while state.time < end * END_SHARE and not self.solver.is_steady:
@@ -258,7 +258,7 @@ class _Loop:
                 self._save()
             if progress is not None:
                 progress(self._progress())
-            if should_stop():
+            if should_stop is not None and should_stop():
                 self._save()
                 raise Stopped(
                     f"stopped at {format_quantity(state.time, 's')} after {self.steps} steps"

@@ -157,8 +157,8 @@ class Calibration:
 def calibrate_with(
     plan: CalibrationPlan,
     make: MakeRuns,
-    report: Callable[[str], None] = lambda line: None,
-    reliefs: MakeReliefs = lambda settings: [],
+    report: Callable[[str], None] | None = None,
+    reliefs: MakeReliefs | None = None,
 ) -> Calibration:
     """Calibrate with any maker of runs.
 
@@ -173,14 +173,16 @@ def calibrate_with(
     settings = first_settings(plan)
     # the answer of all runs so far, and whether the emulator still widens it
     while True:
-        reduced, numbers, profiles = reduce_profiles(plan, make(settings), reliefs(settings))
+        made, lines = make(settings), [] if reliefs is None else reliefs(settings)
+        reduced, numbers, profiles = reduce_profiles(plan, made, lines)
         model = emulate(reduced, settings, numbers)
         posterior = find_posterior(model, plan.runs.seed)
         ratio, wanted = _next_runs(model, posterior)
-        report(
-            f"{len(settings)} runs: {_shown(plan, posterior)}; emulator at {ratio:.2g} of a "
-            "standard error"
-        )
+        if report is not None:
+            report(
+                f"{len(settings)} runs: {_shown(plan, posterior)}; emulator at {ratio:.2g} of a "
+                "standard error"
+            )
         # runs where the emulator knows least, as far as the budget goes
         budget_left = plan.runs.most - len(settings)
         fresh = [one for one in wanted if one not in settings][:budget_left]

@@ -69,8 +69,8 @@ def calibrate(
     threads: int | None = None,
     retries: int = 2,
     engine: Engine | None = None,
-    report: Callable[[str], None] = lambda line: None,
-    should_stop: Callable[[], bool] = lambda: False,
+    report: Callable[[str], None] | None = None,
+    should_stop: Callable[[], bool] | None = None,
 ) -> dict[str, Any]:
     """Find unknowns of a case from measured values; the same call again goes on.
 
@@ -132,8 +132,8 @@ class _Runs:
     plan: CalibrationPlan
     path: Path
     engine: Engine
-    report: Callable[[str], None]
-    should_stop: Callable[[], bool]
+    report: Callable[[str], None] | None
+    should_stop: Callable[[], bool] | None
     cells: dict[str, Cell] = field(default_factory=dict)
 
     def make(self, settings: Sequence[Settings]) -> list[Numbers | None]:
@@ -196,8 +196,8 @@ def make_or_stop(
     folder: Path,
     study: Study,
     engine: Engine,
-    report: Callable[[str], None],
-    should_stop: Callable[[], bool],
+    report: Callable[[str], None] | None,
+    should_stop: Callable[[], bool] | None,
 ) -> Table:
     """The table of points, all runs made.
 
@@ -209,12 +209,13 @@ def make_or_stop(
     """
 
     def note(event: Event, _: Table) -> None:
-        if event.kind in ("complete", "failed", "retry", "wrong"):
+        if report is not None and event.kind in ("complete", "failed", "retry", "wrong"):
             message = f": {event.message}" if event.message else ""
             report(f"run {event.run} {event.kind}{message}")
 
     table = make_runs(points, folder, study, engine=engine, report=note, should_stop=should_stop)
-    if should_stop() and any(one in ("stopped", "missing") for one in table.status):
+    is_stopped = should_stop is not None and should_stop()
+    if is_stopped and any(one in ("stopped", "missing") for one in table.status):
         raise Stopped(f"stopped with {table.count('complete')} of {len(points)} runs complete")
     return table
 

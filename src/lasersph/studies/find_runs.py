@@ -99,8 +99,8 @@ def find(
     want: Sequence[str] = (),
     under: str | PathLike[str] | None = None,
     engine: Engine | None = None,
-    report: Callable[[str], None] = lambda line: None,
-    should_stop: Callable[[], bool] = lambda: False,
+    report: Callable[[str], None] | None = None,
+    should_stop: Callable[[], bool] | None = None,
 ) -> list[FoundSettings]:
     """Find settings that reach wanted values inside limits, the most probable first.
 
@@ -151,7 +151,8 @@ def find(
         fresh = [one for one in wanted if one.hash not in there][:AT_ONCE]
         fresh = fresh[: loaded.budget.most - len(points)]
         best = f"{100.0 * found[0].probability:.3g} %" if found else "nothing possible"
-        report(f"{len(points)} runs: {best}, {len(unsure)} of {len(found)} settings unsure")
+        if report is not None:
+            report(f"{len(points)} runs: {best}, {len(unsure)} of {len(found)} settings unsure")
         if not fresh:
             return found
         points += fresh

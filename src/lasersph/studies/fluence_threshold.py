@@ -18,7 +18,7 @@ from typing import Any, Literal
 
 from lasersph.lasers.laser_keys import AMOUNTS
 from lasersph.physics.ablation_estimates import PHASE_EXPLOSION
-from lasersph.studies.variation import Prepare, Run, changed, prepare_nothing, simulate
+from lasersph.studies.variation import Prepare, Run, changed, simulate
 
 Event = Literal["melt", "vaporize", "ablate", "explode"]
 UNITS = {
@@ -75,8 +75,8 @@ def threshold(
     tolerance: float = 0.01,
     bracket: tuple[float, float] | None = None,
     largest_factor: float = 1024.0,
-    run: Run = simulate,
-    prepare: Prepare = prepare_nothing,
+    run: Run | None = None,
+    prepare: Prepare | None = None,
     at_once: int = 1,
     report: Callable[[str], None] | None = None,
 ) -> Threshold:
@@ -94,7 +94,7 @@ def threshold(
         tolerance: half-width of the final bracket over its middle.
         bracket: a value without and one with the event, if known; both are run first.
         largest_factor: give up when the first guess times or over this factor does not bracket.
-        run: how a case is run. report: called with one line after each run.
+        run: how a case is run; None computes it. report: called with one line after each run.
         prepare: makes `at_once` runs at a time, the next one and those that may be wanted after
             it; the answer does not depend on how many.
 
@@ -106,9 +106,10 @@ def threshold(
     # one value after the other, with those ahead made at the same time
     search = _Search(case, of, Path(out), tolerance, bracket, largest_factor)
     while (value := search.following(search.known)) is not None:
-        if not (search.folder(value) / "summary.json").exists():
+        if prepare is not None and not (search.folder(value) / "summary.json").exists():
             prepare({search.folder(one): search.case_at(one) for one in search.ahead(at_once)})
-        trial = search.judge(value, run(search.case_at(value), search.folder(value)).summary)
+        made = (run or simulate)(search.case_at(value), search.folder(value))
+        trial = search.judge(value, made.summary)
         if report:
             word = "reached" if trial.reached else "not reached"
             energy = f"{search.key} = {show_energy(search.key, value)}"

@@ -23,7 +23,7 @@ from lasersph.input import format_quantity
 from lasersph.input.key_units import unit_of
 from lasersph.observers.energy_budget import NUMERICAL
 from lasersph.report.tables import in_words
-from lasersph.studies.variation import Prepare, Run, changed, prepare_nothing, simulate
+from lasersph.studies.variation import Prepare, Run, changed, simulate
 
 NOT_ANSWERS = re.compile(
     r"(dimensions|mirror_images|particles|schema_version|spacing_m|spacing_requested_m|steps|threads|time_s"
@@ -93,8 +93,8 @@ def converge(
     spacing: Sequence[float],
     out: str | PathLike[str],
     *,
-    run: Run = simulate,
-    prepare: Prepare = prepare_nothing,
+    run: Run | None = None,
+    prepare: Prepare | None = None,
     report: Callable[[str], None] | None = None,
 ) -> SpacingStudy:
     """Run a case at each spacing [m] and assess its summary.
@@ -108,7 +108,8 @@ def converge(
         spacing: three or more [m], in any order. A run may round them: what counts is the spacing
             that its summary reports ("spacing_m"), else the one asked for.
         out: folder that receives one run folder for each spacing.
-        run: how a case is run. prepare: makes several runs at a time before their turn.
+        run: how a case is run; None computes it. prepare: makes several runs at a time before
+            their turn.
         report: called with one line before each run.
 
     Raises:
@@ -123,11 +124,12 @@ def converge(
     # coarsest first: cheap runs show soonest what is wrong
     folders = {size: home / f"spacing-{1e9 * size:.4g}nm" for size in reversed(wanted)}
     cases = {size: changed(case, "particles.spacing", size) for size in folders}
-    prepare({folders[size]: each for size, each in cases.items()})
+    if prepare is not None:
+        prepare({folders[size]: each for size, each in cases.items()})
     for number, (size, folder) in enumerate(folders.items(), start=1):
         if report:
             report(f"run {number} of {len(wanted)}: spacing {format_quantity(size, 'm')}")
-        summary = run(cases[size], folder).summary
+        summary = (run or simulate)(cases[size], folder).summary
         used.insert(0, float(summary.get("spacing_m", size)))
         summaries.insert(0, summary)
     return assess_summaries(summaries, used)

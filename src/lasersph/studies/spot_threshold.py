@@ -22,7 +22,7 @@ from typing import Any
 import numpy as np
 
 from lasersph.lasers import GaussianBeam
-from lasersph.studies.variation import Prepare, Run, changed, prepare_nothing, simulate
+from lasersph.studies.variation import Prepare, Run, changed, simulate
 
 LEAST = 2
 CUBIC_MICROMETERS_PER_MICROJOULE = 1e12
@@ -117,8 +117,8 @@ def spot_threshold(
     fluence: Sequence[float],
     out: str | PathLike[str],
     *,
-    run: Run = simulate,
-    prepare: Prepare = prepare_nothing,
+    run: Run | None = None,
+    prepare: Prepare | None = None,
     report: Callable[[str], None] | None = None,
 ) -> SpotThreshold:
     """Run a case with a Gaussian spot at each peak fluence [J/m^2] and fit D^2 over ln F.
@@ -130,7 +130,8 @@ def spot_threshold(
     Args:
         case: the case; its laser.fluence is replaced. fluence: two or more, in any order.
         out: folder that receives one run folder for each fluence.
-        run: how a case is run. prepare: makes several runs at a time before their turn.
+        run: how a case is run; None computes it. prepare: makes several runs at a time before
+            their turn.
         report: called with one line after each run.
 
     Raises:
@@ -144,9 +145,10 @@ def spot_threshold(
         Path(out) / f"{number:02d}-fluence-{peak:.6g}": changed(case, "laser.fluence", peak)
         for number, peak in enumerate(sorted(set(fluence)), start=1)
     }
-    prepare(cases)
+    if prepare is not None:
+        prepare(cases)
     for number, (folder, each) in enumerate(cases.items(), start=1):
-        peak, summary = each.laser.fluence, run(each, folder).summary
+        peak, summary = each.laser.fluence, (run or simulate)(each, folder).summary
         craters.append(crater_of(peak, summary))
         if report:
             report(f"run {number}: {1e-4 * peak:.5g} J/cm2: {craters[-1].diameter * 1e6:.4g} um")

@@ -46,7 +46,7 @@ from lasersph.studies.companions import (
     with_fixed_layers,
 )
 from lasersph.studies.spacing_study import StudyRow, assess_summaries, numbers_of
-from lasersph.studies.variation import Prepare, Run, prepare_nothing, simulate
+from lasersph.studies.variation import Prepare, Run, simulate
 
 FILE = "uncertainty.json"
 COVERAGE = 2.0
@@ -59,8 +59,8 @@ def assess_uncertainty(
     folder: Path,
     *,
     inputs: Sequence[Input] = (),
-    run: Run = simulate,
-    prepare: Prepare = prepare_nothing,
+    run: Run | None = None,
+    prepare: Prepare | None = None,
     report: Callable[[str], None] | None = None,
 ) -> dict[str, Any]:
     """Run a case and its companions and write what they say to uncertainty.json.
@@ -68,7 +68,8 @@ def assess_uncertainty(
     Args:
         folder: run folder of the case; its companions go into `companions` inside.
         inputs: beside those whose uncertainty the material states, or in place of them.
-        run: makes a run folder exist. prepare: makes several at a time before their turn.
+        run: makes a run folder exist; None computes it. prepare: makes several at a time before
+            their turn.
         report: called with one line before each companion.
 
     Returns:
@@ -77,11 +78,12 @@ def assess_uncertainty(
     chosen, fixed, coarser = _plan(case, inputs)
     total = 2 * len(chosen) + (0 if isinstance(coarser, str) else len(coarser))
     # companions several at a time, after the run that they accompany
-    study = _Companions(folder / "companions", run, report, total)
+    study = _Companions(folder / "companions", run or simulate, report, total)
     if isinstance(coarser, str):  # said before hours of runs, not after
         study.note(f"no numerical part: {coarser}")
-    main = run(case, folder).summary
-    study.prepare(prepare, fixed, () if isinstance(coarser, str) else coarser, chosen, main)
+    main = study.run(case, folder).summary
+    if prepare is not None:
+        study.prepare(prepare, fixed, () if isinstance(coarser, str) else coarser, chosen, main)
 
     # numerical part: grid convergence index over three spacings
     rows: dict[str, StudyRow] = {}

@@ -29,10 +29,6 @@ Prepare = Callable[[Mapping[Path, Any]], None]
 leaves, because it fails or was not asked to, `Run` makes when its turn comes."""
 
 
-def prepare_nothing(cases: Mapping[Path, Any]) -> None:
-    """Leave all runs to their turn, one after the other."""
-
-
 def simulate(case: Any, folder: Path) -> Finished:
     """Make the run folder of a case exist: find it complete, continue it, or compute it."""
     from lasersph.simulation import run

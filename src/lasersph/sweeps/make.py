@@ -28,8 +28,8 @@ def make_runs(
     study: Study,
     *,
     engine: Engine | None = None,
-    report: Report = lambda event, table: None,
-    should_stop: Callable[[], bool] = lambda: False,
+    report: Report | None = None,
+    should_stop: Callable[[], bool] | None = None,
 ) -> Table:
     """Make the run folders of all points exist and write their table.
 
@@ -72,15 +72,21 @@ def make_runs(
                 table = Table.read(path, table)
                 table.write()
                 written_at = time.monotonic()
-            report(event, table)
+            if report is not None:
+                report(event, table)
 
         try:
             if tasks:
-                (engine or LocalEngine()).make(tasks, note, should_stop)
+                (engine or LocalEngine()).make(tasks, note, should_stop or never)
         finally:  # whatever has happened, the table says what is there
             table = Table.read(path, table)
             table.write()
     return table
+
+
+def never() -> bool:
+    """Let all runs go on to their ends."""
+    return False
 
 
 def make_folders(

@@ -73,7 +73,7 @@ def make_run(
                 same_case=True,
                 threads=threads,
                 progress=progress,
-                warn=None,
+                warn=False,
                 should_stop=should_stop,
             )
             return Event(task.run, "complete", exit_code=DONE)

@@ -35,7 +35,7 @@ def run_case(case: Case, folder: Path, *, threads: int | None = None, backend: s
         _remove(folder)
         folder.mkdir(parents=True)
         made_by.write_text(maker, encoding="utf-8")
-    run(case, folder, resume=True, threads=threads, backend=backend, warn=None)
+    run(case, folder, resume=True, threads=threads, backend=backend, warn=False)
     return open_run(folder)
 
 

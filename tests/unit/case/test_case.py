@@ -62,6 +62,9 @@ BAD_OVERRIDES = [
     ),
     ("laser.fluence=3", "--set laser.fluence=3: laser.fluence: 3 has no unit"),
     ("laser.fluence=nan", "--set laser.fluence=nan: laser.fluence: nan is not a finite number"),
+    ("laser.fluenc=3", "--set laser.fluenc=3: laser.fluence: 3 has no unit"),
+    ("laser.pulse.center=1ns", "--set laser.pulse.center=1ns on {file}:18: laser.pulse: a pulse"),
+    ("material=gold", "--set material=gold on {file}:11: laser.wavelength: material 'gold' has"),
     ("spacing", "--set spacing: is not key=value"),
     ("=3", "--set =3: is not key=value"),
     ("a b=3", '--set a b=3: "a b" is no key'),
@@ -75,10 +78,24 @@ BAD_OVERRIDES = [
 
 @pytest.mark.parametrize(("setting", "message"), BAD_OVERRIDES)
 def test_bad_overrides_name_themselves(setting, message):
-    """A wrong override is refused with the override as its place."""
+    """A wrong override is refused with the override as its place, also where the line that does not
+    fit it is one of the file, and where its value would go elsewhere."""
+    file = case_file("dlip-steel")
     with pytest.raises(CaseError) as error:
-        load_case("dlip-steel", [setting])
-    assert str(error.value).startswith(message)
+        load_case(file, [setting])
+    lines = str(error.value).splitlines()
+    assert any(line.startswith(message.replace("{file}", str(file))) for line in lines), lines
+    assert not any(line.startswith(str(file)) for line in lines)
+
+
+def test_a_file_that_is_wrong_by_itself_is_blamed_itself(tmp_path):
+    """Of a file with a mistake, what is wrong at its lines is not blamed on a setting."""
+    file = tmp_path / "case.toml"
+    text = case_file("dlip-steel").read_text(encoding="utf-8")
+    file.write_text(text.replace('center = "50 ns"', 'center = "1 ns"'), encoding="utf-8")
+    with pytest.raises(CaseError) as error:
+        load_case(file, ["laser.fluence=0.8 J/cm^2"])
+    assert str(error.value).startswith(f"{file}:18: laser.pulse: ")
 
 
 def test_a_misspelt_table_of_an_override_is_all_that_is_said():

@@ -101,6 +101,9 @@ def test_compiling_has_its_own_progress(capsys, monkeypatch):
         assert (
             "compiled 50 loops of up to 138 in 20 s, 35 s more at most" in capsys.readouterr().err
         )
+        progress.compiled(SimpleNamespace(loops=1, seconds=6.0))
+        said = capsys.readouterr().err
+        assert "compiled 1 loops of up to 138 in 6 s" in said and "at most" not in said
         progress(replace(STATUS, remaining_s=7.0))
         assert " left" not in capsys.readouterr().err
         monkeypatch.setattr("lasersph.cli.progress.REDRAW", 0.0)

@@ -121,7 +121,7 @@ def test_new_then_check(capsys):
     assert 'fluence = "0.6 J/cm^2"' in text.partition("[laser]")[2]
     Path("mine.toml").write_text(text.replace("0.6 J/cm^2", "0.7 J/cm^2"), encoding="utf-8")
     answer = said(capsys, "check", "mine.toml", "--threads", "1")
-    assert "the case is right" in answer
+    assert "no mistake in the case" in answer
     for word in ("particles", "memory", "binding", "steps", "absorption length", "thermal pen"):
         assert word in answer
     assert main(["new", "dlip-steel", "mine.toml"]) == 2

@@ -1,6 +1,7 @@
 """Pulses: exact shares, trains, breakpoints, refusals."""
 
 import re
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -156,3 +157,12 @@ def test_bad_files_of_powers(tmp_path, rows, message):
     """File, line, what is wrong."""
     with pytest.raises(CaseError, match=re.escape(message)):
         case_with(tmp_path, rows)
+
+
+def test_the_earliest_center_lets_a_millionth_begin_before_the_run():
+    """A maximum at two fwhm, the earliest that is read, leaves out Phi(-2 fwhm/sigma) of the
+    energy; the page that says when a pulse may be names the same."""
+    earliest = GaussianPulse(fwhm=10e-9, center=20e-9)
+    assert float(earliest.share_until(np.array(0.0))) == pytest.approx(1.2e-6, rel=0.05)
+    page = Path(__file__).parents[3] / "docs" / "own_relief.md"
+    assert "two times its `fwhm` or later" in page.read_text(encoding="utf-8")

@@ -292,6 +292,11 @@ def test_check_says_where_ranges_end_and_what_is_missing() -> None:
     assert any("density.liquid" in text and "above 1190 K" in text for text in texts)
     texts = [str(f) for f in check_material(load_material("aluminium-aa6014"))]
     assert any(text.startswith("note: viscosity: not given") for text in texts)
+    metal = load_material("aluminium")
+    boiling = metal.vaporization.model_copy(update={"critical_temperature": None})
+    found = check_material(metal.model_copy(update={"vaporization": boiling}))
+    (note,) = (str(one) for one in found if one.subject == "critical_temperature")
+    assert note.startswith("note: critical_temperature: not given; needed for vapor that leaves")
 
 
 def test_check_warns_of_implausible_numbers() -> None:

@@ -56,7 +56,7 @@ def test_started_anyway(tmp_path, monkeypatch):
     short = ["particles.spacing=4 um", "time.step=5 ns", "time.end=50 ns"]
     case = lasersph.load_case("stefan", short)
     monkeypatch.setattr(size_module, "machine_memory", lambda: ONE_MIB)
-    result = lasersph.run(case, tmp_path / "run", anyway=True, warn=None)
+    result = lasersph.run(case, tmp_path / "run", anyway=True, warn=False)
     assert "of memory, but this machine has" in result.summary["warnings"][0]
 
 

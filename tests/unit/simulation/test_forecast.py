@@ -10,6 +10,7 @@ from lasersph import compute
 from lasersph.case import Case, available_cases, load_case
 from lasersph.compute import search
 from lasersph.simulation import forecast
+from lasersph.simulation.known_loops import known_loops
 from lasersph.simulation.layers import lay_out
 from lasersph.simulation.recipes import recipe_of
 
@@ -72,9 +73,20 @@ def test_fine_layers_hold_the_expected_pool() -> None:
 
 
 def test_coarse_spacing_is_warned_of() -> None:
-    """Light absorbed within 10 nm is not resolved by 32 nm, and `check` says so."""
+    """Heat that reaches 229 nm is not resolved by 100 nm, nor is light absorbed within 10 nm, and
+    `check` says so; 32 nm resolve the heat, which spreads the light."""
+    found = forecast(load_case("dlip-steel", ["particles.spacing=100nm"]))
+    assert any("within 10.5 nm, less than one spacing of 100 nm" in w for w in found.warnings)
+    assert any("the heat of a pulse reaches 229 nm" in w for w in found.warnings)
     found = forecast(load_case("dlip-steel", ["particles.spacing=32nm"]))
-    assert any("within 10.5 nm, less than one spacing of 32.1 nm" in w for w in found.warnings)
+    assert not any("less than one spacing" in w for w in found.warnings)
+
+
+def test_what_a_first_run_pays_besides() -> None:
+    """The loops that a run of the kind is known to call, and how long they take to compile."""
+    case = load_case("dlip-steel")
+    words = f"compiles up to {known_loops(case)} loops, once: roughly 1 min 3"
+    assert known_loops(case) > 100 and words in str(forecast(case))
 
 
 def test_explicit_runs_are_bound_by_conduction() -> None:
@@ -106,7 +118,12 @@ def test_flow_of_a_pool() -> None:
     found = forecast(load_case("dlip-steel", settings))
     assert found.flow is not None and found.flow.layer == pytest.approx(101e-9, rel=0.1)
     assert 3.0 < found.flow.speed < 15.0
-    assert any("drags along" in text for text in found.warnings)
+    (few,) = [text for text in found.warnings if "drags along" in text]
+    assert "the flow below the surface will be too slow" in few
+    assert 'particles.spacing = "13 nm" resolves it' in few
+    coarse = forecast(load_case("dlip-steel", [*settings, "particles.spacing=100nm"]))
+    (none,) = [text for text in coarse.warnings if "drags along" in text]
+    assert "1.0 spacings of 100 nm: there is no profile of speeds in it" in none
     heat = forecast(load_case("dlip-steel", [*settings, "solver.kind=conduction"]))
     assert heat.steps < found.steps < 1.5 * heat.steps
     assert heat.wall_time < found.wall_time < 4.0 * heat.wall_time
@@ -198,7 +215,7 @@ def test_layers_too_shallow_for_what_evaporates():
     said = [" ".join(recipe_of(case).warnings()) for case in cases]
     gone = [float(text.split()[1]) * 1e-9 for text in said[:2]]
     assert (gone[1] - gone[0]) / (2.5 * exact.time) == pytest.approx(0.989 * exact.speed, rel=0.01)
-    assert 'the run would stop; write domain.depth = "656 nm"' in said[1]
+    assert 'the run is likely to stop before its end; write domain.depth = "656 nm"' in said[1]
     assert "evaporate" not in said[2]
 
 

@@ -30,7 +30,7 @@ def finished(tmp_path_factory):
     """Result of a coarse run with an observer, and the observer."""
     own = HotMetal()
     case = lasersph.load_case("pulsed-heating", quick=True)
-    return run(case, tmp_path_factory.mktemp("own") / "run", observers=[own], warn=None), own
+    return run(case, tmp_path_factory.mktemp("own") / "run", observers=[own], warn=False), own
 
 
 def test_an_observer_of_ones_own_is_told_of(finished, capsys):
@@ -59,7 +59,7 @@ def test_progress_in_lines(tmp_path, capsys):
     """`progress=True` prints some lines; nothing without it."""
     case = lasersph.load_case("pulsed-heating", quick=True)
     for folder, progress in (("silent", False), ("telling", True)):
-        run(case, tmp_path / folder, progress=progress, warn=None)
+        run(case, tmp_path / folder, progress=progress, warn=False)
         lines = [line for line in capsys.readouterr().err.splitlines() if " %  " in line]
         assert len(lines) == (10 if progress else 0)
     assert lines[-1].startswith("100 %  ") and ", step " in lines[-1]

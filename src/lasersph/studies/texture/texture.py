@@ -44,8 +44,8 @@ def texture(
     threads: int | None = None,
     retries: int = 2,
     engine: Engine | None = None,
-    report: Callable[[str], None] = lambda line: None,
-    should_stop: Callable[[], bool] = lambda: False,
+    report: Callable[[str], None] | None = None,
+    should_stop: Callable[[], bool] | None = None,
 ) -> dict[str, Any]:
     """Compute the relief that a pulse leaves in its whole spot, from cells of the pattern.
 
