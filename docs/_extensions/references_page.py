@@ -16,7 +16,8 @@ HEAD = """# References
 Works that code and pages cite, by the key that the code uses. \
 `python docs/_extensions/references_page.py` writes this page from `docs/references.bib`.
 """
-ACCENTS = {'"a': "ä", '"u': "ü", "'a": "á", "'e": "é", "'o": "ó", "'c": "ć", "`e": "è", "ve": "ě", "vs": "š"}
+ACCENTS = {'"a': "ä", '"u': "ü", "'a": "á", "'c": "ć", "'e": "é", "'o": "ó", "`e": "è"}
+ACCENTS |= {"ve": "ě", "vs": "š"}
 """Letters as BibTeX writes them behind a backslash, a hacek as v."""
 ENTRY = re.compile(r"^@\w+\{([^,]+),(.*?)^\}", re.MULTILINE | re.DOTALL)
 FIELD = re.compile(r"(\w+)\s*=\s*\{((?:[^{}]|\{(?:[^{}]|\{[^{}]*\})*\})*)\}")

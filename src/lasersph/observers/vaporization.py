@@ -132,5 +132,5 @@ class Vaporization(Observer):
 
     def summary(self) -> dict[str, object]:
         """Nothing where the surface never reached T_v and nothing evaporated."""
-        is_seen = self.span.first is not None or self.last["evaporated_max_m"] > 0.0
+        is_seen = self.span.first is not None or float(self.last["evaporated_max_m"]) > 0.0
         return super().summary() if is_seen else {}

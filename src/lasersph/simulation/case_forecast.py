@@ -18,9 +18,9 @@ from lasersph.simulation.known_loops import known_loops
 from lasersph.simulation.light_text import heating_rows, light_rows
 from lasersph.simulation.recipes import FlowForecast
 
-SECONDS_PER_LOOP = 0.6
+SECONDS_PER_LOOP = 0.06
 """Time to compile a loop [s]. Forecast: 158 loops of `lasersph run dlip-steel --quick` in an empty
-cache took 96 s of processor time more than in a full one, on two cores."""
+cache took 8 s of processor time more than in a full one, on two cores."""
 
 
 @dataclass(frozen=True)
