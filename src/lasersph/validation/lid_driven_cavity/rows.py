@@ -11,6 +11,8 @@ from lasersph.validation.lid_driven_cavity.center_lines import CenterLine, cente
 from lasersph.validation.study import Study
 
 Lines = dict[str, np.ndarray]
+SNAPSHOTS = 20
+"""Over which lines are averaged."""
 
 
 def compare(study: Study) -> None:
@@ -20,7 +22,8 @@ def compare(study: Study) -> None:
         # References, runs and their center lines.
         reference = {component: center_line(component, reynolds) for component in "uv"}
         runs = {n: study.run(f"re{reynolds}-{n}", *settings(study, reynolds, n)) for n in counts}
-        lines = {n: lines_of(one, reference) for n, one in runs.items()}
+        first = study.plan.ends[str(reynolds)] - study.plan.averaged
+        lines = {n: lines_of(one, reference, first) for n, one in runs.items()}
         # Each line has its rows; the vortex is that of the finest run.
         for line in reference.values():
             add_rows(
@@ -39,24 +42,35 @@ def settings(study: Study, reynolds: int, count: int) -> list[str]:
     case = study.case()
     assert case.domain.width is not None and case.flow is not None
     speed, width = case.flow.surface.velocity, case.domain.width
+    # Steps to average over, where there are any.
+    averaged = study.plan.averaged * width / speed
+    stored = [f"output.snapshots.interval={averaged / SNAPSHOTS!r} s"] if averaged else []
     # The material has the viscosity that the Reynolds number asks for.
     return [
+        *stored,
         f"particles.spacing={width / count!r} m",
         f"material.kinematic_viscosity={speed * width / reynolds!r} m^2/s",
         f"time.end={study.plan.ends[str(reynolds)] * width / speed!r} s",
     ]
 
 
-def lines_of(one: Run, reference: dict[str, CenterLine]) -> Lines:
-    """u and w over the speed of the lid at the tabulated places, by component "u", "v"."""
-    first, last = one.snapshots[0], one.snapshots[-1]
-    box = Box.around(first["position"], first["width"])
-    lid = one.case["solver"]["flow"]["surface"]["velocity"]
+def lines_of(one: Run, reference: dict[str, CenterLine], first: float) -> Lines:
+    """u and w over the speed of the lid at the tabulated places, by component "u", "v".
+
+    Means of the snapshots from the time `first` [width / speed of the lid] to the end.
+    """
+    start, lid = one.snapshots[0], one.case["solver"]["flow"]["surface"]["velocity"]
+    box = Box.around(start["position"], start["width"])
+    # The end, and what lies within the time that is averaged over.
+    begun = first * one.case["domain"]["width"] / lid
+    times = one.snapshots.times
+    steps = [one.snapshots[k] for k in range(len(times)) if times[k] > begun or k == len(times) - 1]
     # u on the vertical line, w on the horizontal one, over the speed of the lid.
     found: Lines = {}
     for component, line in reference.items():
-        lines = center_lines(last["position"], last["velocity"], box, line.share)
-        found[component] = (lines.u if component == "u" else lines.w) / lid
+        lines = [center_lines(s["position"], s["velocity"], box, line.share) for s in steps]
+        values = [one.u if component == "u" else one.w for one in lines]
+        found[component] = np.mean(values, axis=0) / lid
     return found
 
 
