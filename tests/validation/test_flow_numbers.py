@@ -21,6 +21,11 @@ from lasersph.validation.taylor_green import rows as taylor_green
 class Snapshots(list):
     """Steps with the time of each."""
 
+    @property
+    def times(self):
+        """Time of each."""
+        return [step["time"] for step in self]
+
     def nearest(self, time):
         """The step closest to a time."""
         return min(self, key=lambda step: abs(step["time"] - time))
@@ -51,9 +56,13 @@ def test_center_lines_of_a_cavity(study):
     inside = (position + np.array([[0.5], [1.0]])).T
     at_particles = np.stack([RegularGridInterpolator((nodes, nodes), v)(inside) for v in velocity])
     step = {"time": 1.0, "position": position, "width": width, "velocity": 2.0 * at_particles}
-    one = MadeUp([step, step], case={"solver": {"flow": {"surface": {"velocity": 2.0}}}})
+    case = {"solver": {"flow": {"surface": {"velocity": 2.0}}}, "domain": {"width": 1.0}}
     reference = {c: center_line(c, 100) for c in ("u", "v")}
-    found = lid_driven_cavity.lines_of(one, reference)
+    found = lid_driven_cavity.lines_of(MadeUp([step, step], case=case), reference, 100.0)
+    # the mean of velocities from time 1 (twice the width over the speed of the lid) on
+    others = [step | {"time": t, "velocity": v * at_particles} for t, v in ((2, 1.0), (3, 3.0))]
+    mean = lid_driven_cavity.lines_of(MadeUp([step, *others], case=case), reference, 2.0)
+    assert all(np.allclose(mean[c], found[c], rtol=1e-12, atol=1e-15) for c in reference)
     for component, line in reference.items():
         assert lid_driven_cavity.deviation(line, found[component]) < 0.003
         assert lid_driven_cavity.deviation(line, 0.9 * found[component]) > 0.01
