@@ -38,6 +38,7 @@ SHARED = (
     "native_signatures.py",
     "native_text.py",
     "native_values.py",
+    "operators.py",
 )
 _UNSTORED = re.compile(r"(, )?cache=True")
 _SPARE = 1 << 20

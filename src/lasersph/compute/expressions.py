@@ -14,6 +14,7 @@ from typing import Any, Protocol
 
 from lasersph.compute import algebra
 from lasersph.compute.intrinsics import intrinsic, is_helper
+from lasersph.compute.operators import ARITHMETIC, COMPARISONS
 from lasersph.compute.tensors import HELPERS
 from lasersph.compute.values import (
     Group,
@@ -30,17 +31,6 @@ from lasersph.compute.values import (
     named,
     scalar,
 )
-
-_BINARY = {
-    ast.Add: "+",
-    ast.Sub: "-",
-    ast.Mult: "*",
-    ast.Div: "/",
-    ast.FloorDiv: "//",
-    ast.Mod: "%",
-    ast.Pow: "**",
-}
-_COMPARE = {ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">=", ast.Eq: "==", ast.NotEq: "!="}
 
 
 class Unit(Protocol):
@@ -93,9 +83,9 @@ class ExpressionWriter:
         return f"t__{self.count}"
 
     def _operator(self, node: ast.operator) -> str:
-        if type(node) not in _BINARY:
+        if type(node) not in ARITHMETIC:
             raise LoopSourceError(f"operator {type(node).__name__} is not understood")
-        return _BINARY[type(node)]
+        return ARITHMETIC[type(node)]
 
     def expression(self, node: ast.expr) -> Term:
         """Value of an expression."""
@@ -153,9 +143,9 @@ class ExpressionWriter:
         values = [self.expression(value) for value in (node.left, *node.comparators)]
         results: list[Term] = []
         for k, op in enumerate(node.ops):
-            if type(op) not in _COMPARE:
+            if type(op) not in COMPARISONS:
                 raise LoopSourceError(f"`{ast.unparse(node)}` is not understood")
-            results.append(algebra.compare(_COMPARE[type(op)], values[k], values[k + 1]))
+            results.append(algebra.compare(COMPARISONS[type(op)], values[k], values[k + 1]))
         if len(results) == 1:
             return results[0]
         return scalar("(" + " and ".join(boolean_text(r) for r in results) + ")", "bool")

@@ -26,24 +26,10 @@ from lasersph.compute.native_values import (
     literal,
     number,
 )
+from lasersph.compute.operators import ARITHMETIC, COMPARISONS
 from lasersph.compute.values import LoopSourceError
 
-_OPERATORS: dict[type, str] = {
-    ast.Add: "+",
-    ast.Sub: "-",
-    ast.Mult: "*",
-    ast.Div: "/",
-    ast.FloorDiv: "//",
-    ast.Mod: "%",
-    ast.BitAnd: "&",
-    ast.BitOr: "|",
-    ast.Lt: "<",
-    ast.LtE: "<=",
-    ast.Gt: ">",
-    ast.GtE: ">=",
-    ast.Eq: "==",
-    ast.NotEq: "!=",
-}
+_OPERATORS = ARITHMETIC | {ast.BitAnd: "&", ast.BitOr: "|"} | COMPARISONS
 
 
 class Text(Protocol):

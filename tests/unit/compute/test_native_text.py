@@ -204,7 +204,7 @@ REFUSED = {
     "y = unknown": "unknown has no value",
     "y = unknown(1)": r"`unknown\(1\)` is not understood",
     "for k in (1, 2):\n        pass": "only `for k in range",
-    "y = 1 ** 2": "operator Pow is not understood",
+    "y = 1 ** 2": r"operator \*\* of int64 and int64",
     "y = 1 << 2": "operator LShift is not understood",
     "y = 1.0 // 2.0": "operator // of float64 and float64",
     "del a": "`del a` is not understood",
