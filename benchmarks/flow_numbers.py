@@ -62,7 +62,7 @@ def cavity(folder: Path, ratio: float, shifting: float, advection: float) -> str
         return f"fails: {error}"
     found = open_run(folder)
     lines = {component: center_line(component, REYNOLDS) for component in "uv"}
-    u, w = (100.0 * deviation(lines[c], v) for c, v in lines_of(found, lines).items())
+    u, w = (100.0 * deviation(lines[c], v) for c, v in lines_of(found, lines, END).items())
     closest = found.summary["flow"]["spacing_min_m"] / found.summary["spacing_m"]
     return f"u {u:.2f}  w {w:.2f} % of lid, closest {closest:.2f}, {found.summary['steps']} steps"
 

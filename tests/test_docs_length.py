@@ -52,7 +52,6 @@ PLAIN = {
     "extend/physics.md": "code",
     "extend/validations.md": "files to copy",
     "gallery.md": "shows all pictures, put in when it is built",
-    "gpu.md": "commands; no run on a card has been made",
     "methods/index.md": "a list of pages",
     "notes/index.md": "a list of pages",
     "papers/ablation.md": "shows the figures of the paper, put in when it is built",

@@ -116,7 +116,7 @@ def arrangement(parameters: Parameters) -> Callable[..., tuple[tuple, tuple]]:
 
 def owner_of(host: np.ndarray) -> np.ndarray:
     """The array whose memory an array shows, itself where that is its own."""
-    return host.base if isinstance(host.base, np.ndarray) else host
+    return host.base if isinstance(host.base, np.ndarray | OpaqueArray) else host
 
 
 def access_paths(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
@@ -70,19 +71,23 @@ class Backend:
 
     object_address = staticmethod(id)
     """Address of the NumPy object behind the caller's array, which compiled code reads."""
+    undefined: Callable[..., Any] = staticmethod(np.empty)
+    """Array of a shape and NumPy type with any elements, as `unwrap` gives it."""
+    zeroed: Callable[..., Any] = staticmethod(np.zeros)
+    """Array of a shape and NumPy type with elements 0, as `unwrap` gives it."""
 
     def zeros(self, shape: int | tuple[int, ...], kind: str = "real") -> Array:
         """Array of zeros; (n,) scalar, (dim, n) vector, (dim, dim, n) tensor fields."""
         recording = self.loops.recorder.recording
         if recording is None:
-            return self.wrap(np.zeros(shape, self.kind(kind)))
-        array = self.wrap(recording.make(shape, self.kind(kind)))
+            return self.wrap(self.zeroed(shape, self.kind(kind)))
+        array = self.wrap(recording.make(shape, self.kind(kind), self.undefined))
         self.fill(array, 0)
         return array
 
     def empty(self, shape: int | tuple[int, ...], dtype: Any) -> Array:
         """Array with undefined elements."""
-        return self.wrap(np.empty(shape, dtype))
+        return self.wrap(self.undefined(shape, np.dtype(dtype)))
 
     def asarray(self, array: ArrayLike, kind: str = "real") -> Array:
         """Copy of host data as an array of this backend."""
@@ -134,21 +139,28 @@ class Backend:
         if first.shape != second.shape:
             raise ValueError(f"copy of shape {first.shape} into shape {second.shape}")
         if self.loops.recorder.recording is None:
-            second[...] = first
+            self.copy_elements(first, second)
         else:
             self.pointwise(same, {"value": source}, destination)
 
+    def copy_elements(self, first: Any, second: Any) -> None:
+        """Copy elements at once, of arrays as `unwrap` gives them."""
+        second[...] = first
+
     def fill(self, array: Array, value: float) -> None:
         """Set all elements."""
-        host = self.unwrap(array)
         if self.loops.recorder.recording is None:
-            host.fill(value)
+            self.fill_elements(self.unwrap(array), value)
             return
         number = int(value)
-        if host.dtype.kind == "f":
+        if array.dtype.kind == "f":
             number = value if isinstance(value, float) else float(value)
-        for part in components(host):
-            self.pointwise(constant, {}, self.wrap(part), value=number)
+        for k in range(math.prod(array.shape[:-1])):
+            self.pointwise(constant, {}, self.component(array, k), value=number)
+
+    def fill_elements(self, whole: Any, value: float) -> None:
+        """Set all elements at once, of an array as `unwrap` gives it."""
+        whole.fill(value)
 
     def head(self, array: Array, count: int) -> Array:
         """View of the first `count` particles of (n,), (dim, n) or (dim, dim, n)."""

@@ -2,10 +2,9 @@
 
 The text holds every function, constant and option that the loop's result depends on; what
 translates it (`SHARED`) enters the hash, so a file never goes stale: an edit gives another name.
-The machine code of a loop lies beside it; that of kernels of a graphics card is kept by Numba in
-`__pycache__`. The folder is $LASERSPH_CACHE, else $XDG_CACHE_HOME/lasersph, else
-~/.cache/lasersph, else, where that is not writable, a folder of this
-user below the system's temporary folder.
+The machine code of a loop lies beside it, and the assembly of kernels of a graphics card. The
+folder is $LASERSPH_CACHE, else $XDG_CACHE_HOME/lasersph, else ~/.cache/lasersph, else, where that
+is not writable, a folder of this user below the system's temporary folder.
 """
 
 from __future__ import annotations
@@ -14,7 +13,6 @@ import ctypes
 import hashlib
 import importlib.util
 import os
-import re
 import sys
 import tempfile
 import warnings
@@ -40,9 +38,6 @@ SHARED = (
     "native_values.py",
     "operators.py",
 )
-_UNSTORED = re.compile(r"(, )?cache=True")
-_SPARE = 1 << 20
-"""Bytes that the folder must take before Numba stores machine code there by itself."""
 _loaded: dict[str, ModuleType] = {}
 _entries: dict[str, Entry] = {}
 _first_miss: list[Callable[[], None]] = []
@@ -93,7 +88,7 @@ def location() -> Path:
 def load(text: str) -> ModuleType:
     """Module with this text of a graphics card's kernels, from the folder or written to it.
 
-    Where the disk is full, its functions are compiled without being stored.
+    Where the disk is full, the module is made from memory.
     """
     # the hash of the text is the file's name, so that an edited text is another file
     folder = location()
@@ -103,8 +98,7 @@ def load(text: str) -> ModuleType:
         return _loaded[name]
     try:
         _put_text(path, text)
-        _refuse_full(folder)
-        # import it as a module, whose compiled functions Numba keeps beside the file
+        # import it as a module
         spec = importlib.util.spec_from_file_location(name, path)
         assert spec is not None and spec.loader is not None
         module = sys.modules[name] = importlib.util.module_from_spec(spec)
@@ -112,9 +106,27 @@ def load(text: str) -> ModuleType:
     except OSError as error:
         # full disk: the same text from memory, with nothing stored
         _warn(error)
-        module = _executed(name, path, _UNSTORED.sub("", text))
+        module = _executed(name, path, text)
     _loaded[name] = module
     return module
+
+
+def kept(key: str, make: Callable[[], str]) -> str:
+    """Assembly that `make` writes, from the folder where it lies there under a key."""
+    folder = location()
+    path = folder / f"{_PREFIX}{_digest(key)}.ptx"
+    if path.is_file():
+        return path.read_text(encoding="utf-8")
+    # another process may have written it while this one waited for the lock
+    with reported(), compiling_alone(folder, _digest(key)):
+        if path.is_file():
+            return path.read_text(encoding="utf-8")
+        text = make()
+        try:
+            _write(path, text.encode())
+        except OSError as error:
+            _warn(error)
+        return text
 
 
 def entry(text: str, *, is_fast: bool = True) -> int:
@@ -217,7 +229,7 @@ def _shared() -> bytes:
 
 
 def _put_text(path: Path, text: str) -> None:
-    """Write a text unless it is there: Numba finds its machine code by the time of the file."""
+    """Write a text unless it is there."""
     if not path.is_file() or path.read_text(encoding="utf-8") != text:
         _write(path, text.encode())
 
@@ -233,12 +245,6 @@ def _write(path: Path, content: bytes) -> None:
     except OSError:
         os.unlink(temporary)
         raise
-
-
-def _refuse_full(folder: Path) -> None:
-    """Raise OSError where the folder takes no machine code, which ends what Numba stores there."""
-    with tempfile.TemporaryFile(dir=folder / "__pycache__") as file:
-        file.write(bytes(_SPARE))
 
 
 def _warn(error: OSError) -> None:
@@ -264,7 +270,7 @@ def files() -> list[Path]:
 def _all_files() -> list[Path]:
     folder = location()
     inner = (folder / "__pycache__").glob(f"{_PREFIX}*")
-    ends = (f"{_PREFIX}*.py", f"{_PREFIX}*.o", f"{trial.PREFIX}*", "*.tmp")
+    ends = (f"{_PREFIX}*.py", f"{_PREFIX}*.o", f"{_PREFIX}*.ptx", f"{trial.PREFIX}*", "*.tmp")
     return [*(path for end in ends for path in folder.glob(end)), *inner]
 
 

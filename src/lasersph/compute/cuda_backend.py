@@ -10,16 +10,19 @@ from __future__ import annotations
 from typing import Any, cast
 
 import numpy as np
-from numba import cuda
 
-from lasersph.compute import cuda_device, cuda_kernels
+from lasersph.compute import cuda_device, cuda_kernels, cuda_memory
 from lasersph.compute.array_types import Array, Rows
 from lasersph.compute.backend import Backend
 from lasersph.compute.cuda_array import CudaArray
-from lasersph.compute.cuda_device import THREADS, start
+from lasersph.compute.cuda_device import THREADS
 from lasersph.compute.cuda_launch import CudaLauncher
+from lasersph.compute.cuda_memory import start
 from lasersph.compute.cuda_search import CudaSearch
 from lasersph.compute.device_array import DeviceArray
+
+FEW = 8 * THREADS
+"""Pieces whose sums one group of threads adds up, in eight turns."""
 
 
 def twice(value):
@@ -38,6 +41,7 @@ class CudaBackend(Backend):
     """
 
     name = "cuda"
+    undefined = staticmethod(CudaArray.of_shape)
 
     def __init__(self, precision: str) -> None:
         self.device = cuda_device.checked()
@@ -65,16 +69,6 @@ class CudaBackend(Backend):
             raise TypeError(f"{type(array).__name__} given; make it with backend.asarray()")
         return array
 
-    def empty(self, shape: int | tuple[int, ...], dtype: Any) -> CudaArray:
-        """Array with undefined elements."""
-        return CudaArray.of_shape(shape, np.dtype(dtype))
-
-    def zeros(self, shape: int | tuple[int, ...], kind: str = "real") -> CudaArray:
-        """Array of zeros; (n,) scalar, (dim, n) vector, (dim, dim, n) tensor fields."""
-        array = self.empty(shape, self.kind(kind))
-        self.fill(array, 0)
-        return array
-
     def to_host(self, array: Array) -> np.ndarray:
         """Copy as a NumPy array."""
         return self.unwrap(array).to_host()
@@ -99,27 +93,33 @@ class CudaBackend(Backend):
         )
         return least, most
 
+    def empty(self, shape: int | tuple[int, ...], dtype: Any) -> CudaArray:
+        """Array with undefined elements."""
+        return CudaArray.of_shape(shape, np.dtype(dtype))
+
+    def zeros(self, shape: int | tuple[int, ...], kind: str = "real") -> CudaArray:
+        """Array of zeros; (n,) scalar, (dim, n) vector, (dim, dim, n) tensor fields."""
+        return self.unwrap(super().zeros(shape, kind))
+
+    def zeroed(self, shape: int | tuple[int, ...], dtype: np.dtype) -> CudaArray:
+        """Array with elements 0."""
+        return CudaArray.of_shape(shape, dtype, cuda_memory.zeros)
+
     def wait(self) -> None:
         """Return when the card has done everything that was started."""
-        cuda.synchronize()
+        cuda_memory.wait()
 
-    def copy(self, source: Array, destination: Array) -> None:
-        """Copy all elements of `source` into `destination` of the same shape."""
-        first, second = self.unwrap(source), self.unwrap(destination)
-        if first.shape != second.shape:
-            raise ValueError(f"copy of shape {first.shape} into shape {second.shape}")
-        count = first.shape[-1]
+    def copy_elements(self, first: CudaArray, second: CudaArray) -> None:
+        """Copy elements at once."""
         for a, b in zip(first.parts, second.parts, strict=True):
-            start(cuda_kernels.cast, count, np.uint64(count), a, b)
+            start(cuda_kernels.cast, first.shape[-1], a, b)
         second.changed()
 
-    def fill(self, array: Array, value: float) -> None:
-        """Set all elements."""
-        target = self.unwrap(array)
-        count = target.shape[-1]
-        for part in target.parts:
-            start(cuda_kernels.fill, count, np.uint64(count), part, target.dtype.type(value))
-        target.changed()
+    def fill_elements(self, whole: CudaArray, value: float) -> None:
+        """Set all elements at once."""
+        for part in whole.parts:
+            start(cuda_kernels.fill, whole.shape[-1], part, whole.dtype.type(value))
+        whole.changed()
 
     def head(self, array: Array, count: int) -> CudaArray:
         """View of the first `count` particles of (n,), (dim, n) or (dim, dim, n)."""
@@ -147,7 +147,7 @@ class CudaBackend(Backend):
         if index.size > (last if verb == "gather" else first).shape[-1]:
             raise ValueError(f"{verb} of {index.size} elements")
         for a, b in zip(first.parts, last.parts, strict=True):
-            start(kernel, index.size, np.uint64(index.size), a, index.parts[0], b)
+            start(kernel, index.size, a, index.parts[0], b)
         last.changed()
 
     def exclusive_scan(self, counts: Array, out: Array) -> None:
@@ -160,64 +160,70 @@ class CudaBackend(Backend):
 
     def _scan(self, counts: Any, size: int, out: Any) -> None:
         """Sums within pieces, of the pieces before each, and both together."""
-        # out[0] = 0 and, within pieces of a group's size, running sums
-        start(cuda_kernels.fill, 1, np.uint64(1), out, np.uint64(0))
         if size == 0:
+            start(cuda_kernels.fill, 1, out, np.uint64(0))
             return
-        pieces, count = -(-size // THREADS), np.uint64(size)
+        # running sums within pieces of a group's size
+        pieces = -(-size // THREADS)
         sums = self.empty(pieces, np.uint64).parts[0]
-        start(cuda_kernels.piece_sums, size, count, counts, out, sums)
-        # sums before each piece by the same scan, added to its elements
-        if pieces > 1:
+        start(cuda_kernels.piece_sums, size, counts, out, sums)
+        if pieces == 1:
+            return
+        # sums before each piece: by one group, of very many by the same scan
+        if pieces <= FEW:
+            cuda_memory.start_one(cuda_kernels.sums_before, pieces, sums)
+            before = sums
+        else:
             before = self.empty(pieces + 1, np.uint64).parts[0]
             self._scan(sums, pieces, before)
-            start(cuda_kernels.add_piece_sums, size, count, before, out)
+        start(cuda_kernels.add_piece_sums, size, before, out)
 
     def rows_where(self, array: Array, value: float) -> CudaArray:
         """Rows k in order, kind "index", whose array[k] is exactly `value`."""
         source = self.unwrap(array)
-        size, count = source.size, np.uint64(source.size)
+        size = source.size
         marks = self.empty(size, np.uint32)
         # compared in double precision, which holds every number of every kind but huge offsets
-        start(
-            cuda_kernels.mark_equal, size, count, source.parts[0], np.float64(value), marks.parts[0]
-        )
+        start(cuda_kernels.mark_equal, size, source.parts[0], np.float64(value), marks.parts[0])
         # a marked row goes to the number of marks before it
         place = self.empty(size + 1, np.uint64)
         self.exclusive_scan(marks, place)
         rows = self.empty(place.last(), np.uint32)
-        start(cuda_kernels.list_marked, size, count, marks.parts[0], place.parts[0], rows.parts[0])
+        start(cuda_kernels.list_marked, size, marks.parts[0], place.parts[0], rows.parts[0])
         return rows
 
     def rows_by_key(self, keys: Array, key_count: int) -> tuple[CudaArray, CudaArray]:
         """Where the rows of each index key begin, and these key after key, see `Backend`."""
-        start = self.zeros(key_count + 1, "offset")
-        self.exclusive_scan(self.count_by_key(keys, key_count), start)
-        return start, self.sort_by_key(keys, key_count)
+        first = self.empty(key_count + 1, np.uint64)
+        self.exclusive_scan(self.count_by_key(keys, key_count), first)
+        return first, self._sorted(keys, key_count)
 
     def sort_by_key(self, keys: Array, key_count: int) -> CudaArray:
         """Stable order that sorts index keys 0 ... key_count - 1, kind "index"."""
         # refuse keys that are too large
         self.count_by_key(keys, key_count)
+        return self._sorted(keys, key_count)
+
+    def _sorted(self, keys: Array, key_count: int) -> CudaArray:
+        """Stable order that sorts index keys below `key_count`."""
         size = keys.size
         # radix sort: keys and rows by one digit after the other, the lowest first
-        count, pieces = np.uint64(size), -(-size // THREADS)
+        pieces = -(-size // THREADS)
         now = self.unwrap(keys).parts[0]
         order = self.empty(size, np.uint32)
-        start(cuda_kernels.number, size, count, order.parts[0])
+        start(cuda_kernels.number, size, order.parts[0])
         for shift in range(0, max(key_count - 1, 0).bit_length(), cuda_kernels.DIGIT_BITS):
             # how often each digit occurs in each piece, and the places that follow
             counts = self.zeros(cuda_kernels.DIGITS * pieces, "index")
             place = self.empty(counts.size + 1, np.uint64)
             digit = (np.uint64(shift), np.uint64(pieces))
-            start(cuda_kernels.count_digits, size, count, now, *digit, counts.parts[0])
+            start(cuda_kernels.count_digits, size, now, *digit, counts.parts[0])
             self.exclusive_scan(counts, place)
             # move keys and rows there, equal digits in order
             after, moved = self.empty(size, np.uint32), self.empty(size, np.uint32)
             start(
                 cuda_kernels.sort_digits,
                 size,
-                count,
                 now,
                 order.parts[0],
                 *digit,
@@ -235,7 +241,6 @@ class CudaBackend(Backend):
         start(
             cuda_kernels.count_keys,
             source.size,
-            np.uint64(source.size),
             source.parts[0],
             np.uint64(key_count),
             counts.parts[0],

@@ -9,7 +9,6 @@ from __future__ import annotations
 import importlib.util
 import math
 import os
-from typing import Any
 
 IS_SIMULATED = os.environ.get("NUMBA_ENABLE_CUDASIM", "0") not in ("", "0")
 SIMULATED = "CUDA simulator"
@@ -64,9 +63,3 @@ def free_memory() -> float:
 def groups(count: int, most: int = GROUPS) -> int:
     """Groups of threads for so many elements."""
     return min(-(-count // THREADS), most)
-
-
-def start(kernel: Any, count: int, *arguments: Any) -> None:
-    """Start a kernel whose threads share `count` elements, where there are any."""
-    if count:
-        kernel[groups(count), THREADS](*arguments)

@@ -19,11 +19,11 @@ from lasersph.compute.cuda_device import THREADS
 ZERO = np.uint64(0)
 ONE = np.uint64(1)
 SIZE = np.uint64(THREADS)
-DIGITS = 16
-DIGIT_BITS = 4
+DIGIT_BITS = 8
+DIGITS = 1 << DIGIT_BITS
 
 
-@cuda.jit(cache=True)
+@cuda.jit
 def fill(count, array, value):
     """array[k] = value."""
     k, step = np.uint64(cuda.grid(1)), np.uint64(cuda.gridsize(1))
@@ -32,7 +32,7 @@ def fill(count, array, value):
         k += step
 
 
-@cuda.jit(cache=True)
+@cuda.jit
 def cast(count, source, out):
     """out[k] = source[k] in another type."""
     k, step = np.uint64(cuda.grid(1)), np.uint64(cuda.gridsize(1))
@@ -41,7 +41,7 @@ def cast(count, source, out):
         k += step
 
 
-@cuda.jit(cache=True)
+@cuda.jit
 def number(count, out):
     """out[k] = k."""
     k, step = np.uint64(cuda.grid(1)), np.uint64(cuda.gridsize(1))
@@ -50,16 +50,18 @@ def number(count, out):
         k += step
 
 
-@cuda.jit(cache=True)
+@cuda.jit
 def largest(count, array, most):
     """most[0] = largest of array and most[0]."""
     k, step = np.uint64(cuda.grid(1)), np.uint64(cuda.gridsize(1))
     while k < count:
-        cuda.atomic.max(most, 0, array[k])
+        # most elements are smaller than what others have found, and need no turn at its place
+        if array[k] > most[0]:
+            cuda.atomic.max(most, 0, array[k])
         k += step
 
 
-@cuda.jit(cache=True)
+@cuda.jit
 def gather(count, source, order, out):
     """out[k] = source[order[k]]."""
     k, step = np.uint64(cuda.grid(1)), np.uint64(cuda.gridsize(1))
@@ -68,7 +70,7 @@ def gather(count, source, order, out):
         k += step
 
 
-@cuda.jit(cache=True)
+@cuda.jit
 def scatter(count, source, order, out):
     """out[order[k]] = source[k]."""
     k, step = np.uint64(cuda.grid(1)), np.uint64(cuda.gridsize(1))
@@ -77,25 +79,32 @@ def scatter(count, source, order, out):
         k += step
 
 
-@cuda.jit(cache=True)
+@cuda.jit(device=True)
+def running_sums(shared, thread):
+    """Each of a group's numbers becomes the sum up to it, by the group's threads together."""
+    cuda.syncthreads()
+    # Hillis and Steele's scan: the sums reach over 2, 4, 8, ... elements
+    width = 1
+    while width < THREADS:
+        before = shared[thread - width] if thread >= width else ZERO
+        cuda.syncthreads()
+        shared[thread] += before
+        cuda.syncthreads()
+        width *= 2
+
+
+@cuda.jit
 def piece_sums(count, counts, out, sums):
-    """out[k + 1] = sum of counts up to k within its piece; sums[m] that of piece m."""
-    # running sum of a piece in shared memory
+    """out[k + 1] = sum of counts up to k within its piece, out[0] = 0; sums[m] that of piece m."""
     shared = cuda.shared.array(THREADS, np.uint64)
     thread = cuda.threadIdx.x
     piece, step = np.uint64(cuda.blockIdx.x), np.uint64(cuda.gridDim.x)
+    if piece == ZERO and thread == 0:
+        out[ZERO] = ZERO
     while piece * SIZE < count:
         k = piece * SIZE + np.uint64(thread)
         shared[thread] = np.uint64(counts[k]) if k < count else ZERO
-        cuda.syncthreads()
-        # Hillis and Steele's scan: the sums reach over 2, 4, 8, ... elements
-        width = 1
-        while width < THREADS:
-            before = shared[thread - width] if thread >= width else ZERO
-            cuda.syncthreads()
-            shared[thread] += before
-            cuda.syncthreads()
-            width *= 2
+        running_sums(shared, thread)
         # sums up to each element, and that of the whole piece
         if k < count:
             out[k + ONE] = shared[thread]
@@ -105,7 +114,25 @@ def piece_sums(count, counts, out, sums):
         piece += step
 
 
-@cuda.jit(cache=True)
+@cuda.jit
+def sums_before(count, sums):
+    """sums[m] becomes the sum of those before it, by one group."""
+    shared = cuda.shared.array(THREADS, np.uint64)
+    thread = cuda.threadIdx.x
+    first, before = ZERO, ZERO
+    while first < count:
+        m = first + np.uint64(thread)
+        own = sums[m] if m < count else ZERO
+        shared[thread] = own
+        running_sums(shared, thread)
+        if m < count:
+            sums[m] = before + shared[thread] - own
+        before += shared[THREADS - 1]
+        cuda.syncthreads()
+        first += SIZE
+
+
+@cuda.jit
 def add_piece_sums(count, before, out):
     """out[k + 1] += before[m] of its piece m."""
     k, step = np.uint64(cuda.grid(1)), np.uint64(cuda.gridsize(1))
@@ -114,7 +141,7 @@ def add_piece_sums(count, before, out):
         k += step
 
 
-@cuda.jit(cache=True)
+@cuda.jit
 def mark_equal(count, array, value, marks):
     """marks[k] = 1 where array[k] is exactly value, else 0."""
     k, step = np.uint64(cuda.grid(1)), np.uint64(cuda.gridsize(1))
@@ -123,7 +150,7 @@ def mark_equal(count, array, value, marks):
         k += step
 
 
-@cuda.jit(cache=True)
+@cuda.jit
 def list_marked(count, marks, place, rows):
     """Rows with a mark, in order; place is the running sum of marks."""
     k, step = np.uint64(cuda.grid(1)), np.uint64(cuda.gridsize(1))
@@ -133,7 +160,7 @@ def list_marked(count, marks, place, rows):
         k += step
 
 
-@cuda.jit(cache=True)
+@cuda.jit
 def count_keys(count, keys, key_count, counts, beyond):
     """counts[key] is how often a key occurs; beyond[0] is the largest that is too large, or 0."""
     k, step = np.uint64(cuda.grid(1)), np.uint64(cuda.gridsize(1))
@@ -146,7 +173,7 @@ def count_keys(count, keys, key_count, counts, beyond):
         k += step
 
 
-@cuda.jit(cache=True)
+@cuda.jit
 def count_digits(count, keys, shift, pieces, counts):
     """counts[digit * pieces + m] is how often a digit occurs in piece m."""
     k, step = np.uint64(cuda.grid(1)), np.uint64(cuda.gridsize(1))
@@ -157,7 +184,7 @@ def count_digits(count, keys, shift, pieces, counts):
         k += step
 
 
-@cuda.jit(cache=True)
+@cuda.jit
 def sort_digits(count, keys, order, shift, pieces, start, new_keys, new_order):
     """Move keys and order to the places of their digits, those of equal digits in order."""
     # digits of a piece in shared memory
@@ -183,7 +210,7 @@ def sort_digits(count, keys, order, shift, pieces, start, new_keys, new_order):
         piece += step
 
 
-@cuda.jit(cache=True)
+@cuda.jit
 def spliced_lengths(count, chosen, start, rows, kept, counts, beyond):
     """Length of each row of a joined list; beyond[0] = 1 where a chosen row is not in the first."""
     i, step = np.uint64(cuda.grid(1)), np.uint64(cuda.gridsize(1))
@@ -199,7 +226,7 @@ def spliced_lengths(count, chosen, start, rows, kept, counts, beyond):
         i += step
 
 
-@cuda.jit(cache=True)
+@cuda.jit
 def splice_rows(count, chosen, start, source, kept, kept_source, row_start, joined):
     """Copy rows of one list where chosen, of another elsewhere, to their places."""
     i, step = np.uint64(cuda.grid(1)), np.uint64(cuda.gridsize(1))

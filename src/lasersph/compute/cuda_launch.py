@@ -7,17 +7,17 @@ rearrangement of sums is allowed to the compiler beyond fused products, so that 
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import cache
 from operator import methodcaller
 from typing import Any, cast
 
 import numpy as np
-from numba import cuda
 
 from lasersph.compute import cache as folder
 from lasersph.compute.cuda_array import CudaArray
-from lasersph.compute.cuda_device import SUMMING_GROUPS, THREADS, groups
+from lasersph.compute.cuda_device import GROUPS, SUMMING_GROUPS, THREADS, groups
+from lasersph.compute.cuda_memory import Call, Room
 from lasersph.compute.generate import LoopText
 from lasersph.compute.launch import EMPTY, Bound, Launcher
 
@@ -113,7 +113,7 @@ class CudaLoopText(LoopText):
             body += text.strip("\n").split("\n")
         names = ", ".join(["count", *self.parameters()])
         text = "\n    ".join([f"def loop({names}):", *body])
-        return f"@cuda.jit(cache=True)\n{text}\n"
+        return f"@cuda.jit\n{text}\n"
 
 
 class CudaLauncher(Launcher):
@@ -139,62 +139,102 @@ class CudaLauncher(Launcher):
         """A loop ready to run, which keeps its arrays."""
         return CudaLaunch(bound)
 
+    def list_of(self, launches: Sequence[Any], precision: str) -> Callable[[], None]:
+        """Function that runs launches one after the other."""
+
+        def run() -> None:
+            for launch in launches:
+                launch.run()
+
+        return run
+
 
 class CudaLaunch:
-    """A loop with its arrays on a graphics card; see `launch.Launch`."""
+    """A loop with its arrays on a graphics card; see `launch.Launch`.
+
+    Attributes:
+        results: what the last run has reduced.
+    """
 
     def __init__(self, bound: Bound) -> None:
-        self._bound, compiled = bound, bound.compiled
-        # components in the order of the kernel's parameters
-        ours = [*bound.lists, *bound.fields, *bound.outs, *bound.tables]
-        arrays = cast("list[CudaArray]", [one for one in ours if one is not None])
-        self._arrays = [part for one in arrays for part in one.parts]
-        self._outs = cast("list[CudaArray]", [out for out in bound.outs if out is not None])
-        # memory of the constants, which enter one by one
-        reals, whole = compiled.numbers
-        self._numbers = np.zeros(reals, compiled.real), np.zeros(whole, np.int64)
-        self.set(bound.constants)
+        compiled = bound.compiled
         self.reductions, self.places = compiled.reductions, compiled.places
-        self._groups = groups(bound.rows, SUMMING_GROUPS)
+        self._rows, self._bound, self._held = bound.rows, bound, None
+        self._outs = cast("list[CudaArray]", [out for out in bound.outs if out is not None])
+        # components in the order of the kernel's parameters, then numbers, then what groups reduce
+        given = [*bound.lists, *bound.fields, *bound.outs, *bound.tables]
+        arrays = cast("list[CudaArray]", [one for one in given if one is not None])
+        pieces = [part for one in arrays for part in one.parts]
+        reals, whole = compiled.numbers
+        numbers = [*[compiled.real.type(0)] * reals, *[np.int64(0)] * whole]
+        most = max(groups(bound.listed, SUMMING_GROUPS), 1) * len(self.reductions)
+        self._room = _room(most, compiled.real) if most else None
+        ends = [] if self._room is None else [self._room.piece]
+        self._call = Call(compiled.entry, [np.uint64(bound.rows), *pieces, *numbers, *ends])
+        # memory of the numbers, which later runs take
+        self._count = self._call.numbers(0, 1, np.dtype(np.uint64))
+        first = 1 + len(pieces)
+        self.numbers = (
+            self._call.numbers(first, reals, compiled.real),
+            self._call.numbers(first + reals, whole, np.dtype(np.int64)),
+        )
+        self.results: tuple[float, ...] = ()
+        self.set(bound.constants)
 
     @property
     def reduces(self) -> bool:
         """Whether a run returns numbers."""
         return bool(self.reductions)
 
+    @property
+    def bound_to(self) -> tuple[int, ...]:
+        """Numbers of the loop and of its arrays but the rows."""
+        bound = self._bound
+        given = [*bound.fields, *bound.outs, *bound.tables]
+        return (id(bound.compiled.entry), *map(id, given))
+
+    def take_rows(self, rows: CudaArray) -> None:
+        """Run other rows from now on: (k,) numbers among those that there are, kind "index"."""
+        self._rows = self._count[0] = rows.size
+        self._call.take(1, rows.parts[0])
+        self._held = rows
+
+    def memory_of(self, name: str) -> list[tuple[Any, int]]:
+        """Memory of a constant, with the place there; none where the loop does not have it."""
+        return [(self.numbers[which], k) for which, k, _ in self.places.get(name, ())]
+
     def set(self, constants: dict[str, Any]) -> None:
         """Take constants by name."""
         for name, value in constants.items():
-            for which, k, component in self._bound.compiled.places[name]:
-                self._numbers[which][k] = value if component < 0 else value[component]
+            for which, k, component in self.places[name]:
+                self.numbers[which][k] = value if component < 0 else value[component]
 
     def __call__(self, **constants: Any) -> tuple[float, ...]:
         """Run; returns the reductions."""
         self.set(constants)
+        self.run()
+        return self.results
+
+    def run(self) -> None:
+        """Run with the numbers as they are; what it reduces goes to `results`."""
         # a card starts no kernel of no threads
-        compiled, rows = self._bound.compiled, self._bound.rows
-        if rows == 0:
-            return tuple([EMPTY[how] for how in self.reductions])
-        taken = [np.uint64(rows), *self._arrays, *self._numbers[0], *self._numbers[1]]
-        # one value for each group and reduction comes back
-        partial = None
-        if self.reductions:
-            partial = _room(len(self.reductions) * self._groups, compiled.real)
-            compiled.entry[self._groups, THREADS](*taken, partial)
-        else:
-            compiled.entry[groups(rows), THREADS](*taken)
+        if self._rows == 0:
+            self.results = tuple([EMPTY[how] for how in self.reductions])
+            return
+        number = groups(self._rows, SUMMING_GROUPS if self.reductions else GROUPS)
+        self._call.start(number)
         # copies that observers hold are out of date now
         for out in self._outs:
             out.changed()
-        if partial is None:
-            return ()
+        if self._room is None:
+            return
         # reduce the groups' values in their order, in double precision
-        rows_of_parts = partial.copy_to_host().reshape(len(self.reductions), -1)
-        pairs = zip(self.reductions, rows_of_parts, strict=True)
-        return tuple([float(TOTAL[how](parts, dtype=np.float64)) for how, parts in pairs])
+        found = self._room.read()[: len(self.reductions) * number].reshape(-1, number)
+        pairs = zip(self.reductions, found, strict=True)
+        self.results = tuple([float(TOTAL[how](parts, dtype=np.float64)) for how, parts in pairs])
 
 
 @cache
 def _room(size: int, real: Any) -> Any:
     """Place for the groups' values; read before another loop starts, so that one serves all."""
-    return cuda.device_array(size, real)
+    return Room(size, real)

@@ -13,13 +13,12 @@ from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
-from numba import cuda
 
-from lasersph.compute import cache, cuda_kernels
+from lasersph.compute import cache, cuda_kernels, cuda_memory
 from lasersph.compute.cell_grid import CellGrid
 from lasersph.compute.cuda_array import CudaArray
-from lasersph.compute.cuda_device import start
 from lasersph.compute.cuda_launch import HEAD, INNER, supported
+from lasersph.compute.cuda_memory import start
 from lasersph.compute.scan import distance, images, indented
 from lasersph.compute.search import (
     FINEST,
@@ -34,7 +33,7 @@ from lasersph.compute.vectors import element
 
 _SCAN = '''{mean}
 
-@cuda.jit(cache=True)
+@cuda.jit
 def scan(count, {targets}, support, {sorted_positions}, sorted_support, order, starts, first_cell,
          low, high, inverse, shape, largest, slack, period, row_start, counts, neighbor, stores):
     """Count the neighbors of each target, or store them from row_start on."""
@@ -148,10 +147,10 @@ class CudaSearch:
             l_j.parts[0],
             order.parts[0],
             starts.parts[0],
-            cuda.to_device(_first_cells(grids)),
+            cuda_memory.from_host(_first_cells(grids)),
             *self._tables(levels, grids),
             slack,
-            cuda.to_device(widths),
+            cuda_memory.from_host(widths),
         )
 
         # the kernel for this dimension, mean and periodic axes
@@ -165,13 +164,12 @@ class CudaSearch:
         begin, neighbor, values = map(backend.unwrap, first)
         kept, kept_neighbor, kept_values = map(backend.unwrap, others)
         size = kept.size - 1
-        count, rows = np.uint64(size), np.uint64(begin.size - 1)
+        rows = np.uint64(begin.size - 1)
         # length of each row in the joined list
         counts, beyond = backend.empty(size, np.uint32), backend.zeros(1, "index")
         start(
             cuda_kernels.spliced_lengths,
             size,
-            count,
             chosen.parts[0],
             begin.parts[0],
             rows,
@@ -191,7 +189,6 @@ class CudaSearch:
             start(
                 cuda_kernels.splice_rows,
                 size,
-                count,
                 chosen.parts[0],
                 begin.parts[0],
                 ours.parts[0],
@@ -309,21 +306,21 @@ class CudaSearch:
             np.array([one.shape for one in grids], np.int64),
             np.array([one.largest for one in levels], real),
         )
-        return tuple(cuda.to_device(column) for column in columns)
+        return tuple(cuda_memory.from_host(column) for column in columns)
 
     def _scanned(self, scan: Any, count: int, arguments: tuple) -> tuple[CudaArray, CudaArray]:
         """Count the neighbors, then store them."""
-        backend, rows = self.backend, np.uint64(count)
+        backend = self.backend
         counts, nothing = backend.zeros(count, "index"), backend.zeros(1, "index")
         row_start = backend.zeros(count + 1, "offset")
         places = (row_start.parts[0], counts.parts[0])
         # first pass: count the neighbors of each row
-        start(scan, count, rows, *arguments, *places, nothing.parts[0], False)
+        start(scan, count, *arguments, *places, nothing.parts[0], np.False_)
         # place of each row: the exclusive sum of the counts before it
         backend.exclusive_scan(counts, row_start)
         neighbor = backend.empty(row_start.last(), np.uint32)
         # second pass: store them from there on
-        start(scan, count, rows, *arguments, *places, neighbor.parts[0], True)
+        start(scan, count, *arguments, *places, neighbor.parts[0], np.True_)
         return row_start, neighbor
 
 

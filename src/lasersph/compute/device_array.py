@@ -38,7 +38,7 @@ class DeviceArray(NDArrayOperatorsMixin):
         whole: np.ndarray | None = None,
     ) -> None:
         self._backend, self._array = backend, array
-        self._version = array.memory.version
+        self._version = array.version
         self._whole = whole
         self._ends: tuple[float, float] | None = None
         self.shape, self.ndim, self.size = array.shape, array.ndim, array.size
@@ -89,7 +89,7 @@ class DeviceArray(NDArrayOperatorsMixin):
         return self._whole
 
     def _refuse_written(self) -> None:
-        if self._array.memory.version != self._version:
+        if self._array.version != self._version:
             raise RuntimeError("an array was looked at after it had been written")
 
     # --- on the card ----------------------------------------------------------------------------

@@ -59,12 +59,17 @@ def total(a: Any, axis: Any = None, **options: Any) -> Any:
 
 def is_any(a: Any, **options: Any) -> Any:
     """As `np.any`."""
-    return NotImplemented if options or not _is_mask(a) else a.rows().size > 0
+    return NotImplemented if options or not _is_mask(a) else _number(a) > 0
 
 
 def count(a: Any, **options: Any) -> Any:
     """As `np.count_nonzero`."""
-    return NotImplemented if options or not _is_mask(a) else a.rows().size
+    return NotImplemented if options or not _is_mask(a) else _number(a)
+
+
+def _number(mask: Any) -> int:
+    """How many elements say yes, added up on the card."""
+    return int(mask.reduced("sum")[0])
 
 
 def numbers(a: Any) -> Any:

@@ -6,10 +6,10 @@
             self.backend.pair_sum(moment_term, ..., self._C, finish=bounded_inverse, rows=rows)
 
 A graph is called like any method, and returns what its loops reduce, in order. Called first, its
-method is run as it is. Called again, what it launches is recorded, and from then on runs in
-compiled code as one list, with other numbers, other lists of rows and other elements of the same
-arrays; so nothing of Python runs between loops that take less time than their calls. Numbers are
-the parameters that are annotated `float`. Where the method would come to other arrays
+method is run as it is. Called again, what it launches is recorded, and from then on runs as one
+list, on the processor in compiled code, with other numbers, other lists of rows and other elements
+of the same arrays; so nothing of Python runs between loops that take less time than their calls.
+Numbers are the parameters that are annotated `float`. Where the method would come to other arrays
 (`access_paths`), it is recorded anew.
 
 A method launches loops, makes arrays by `zeros`, copies or fills some, and calls graphs, which are
@@ -17,9 +17,8 @@ then part of it. It reads nothing else that changes, neither elements of arrays 
 are numbers, and sorts nothing. Its owner has the `backend`. Graphs are also the steps of
 `Backend.iterate`, which are bound without being run.
 
-Where launches are not bound to memory (on a graphics card) the method is run as it is; the strict
-backend, and all within `checked_graphs`, run it each time and refuse it where it does not launch
-what it did before.
+The strict backend, and all within `checked_graphs`, run the method each time and refuse it where it
+does not launch what it did before.
 """
 
 from __future__ import annotations
@@ -31,7 +30,7 @@ from typing import Any, ParamSpec, overload
 
 from lasersph.compute.access_paths import arrangement, parameters_of
 from lasersph.compute.compiled_iteration import CalledStep, LoopStep
-from lasersph.compute.kept_graph import KeptGraph, refuse_change, step_of_recording
+from lasersph.compute.kept_graph import KeptGraph, refuse_change
 from lasersph.compute.loops import Loops
 from lasersph.compute.recording import Number, Recorder, Recording
 
@@ -80,8 +79,7 @@ class LoopGraph:
             values, found = self._updated(loops, kept, owner, arguments, options)
             return kept.run(values) if found is None else found.results
         # first call: nothing is recorded of a method that is called once
-        if loops.records:
-            owner.__dict__[self.name] = KeptGraph()
+        owner.__dict__[self.name] = KeptGraph()
         return recorder.reductions(lambda: self.function(owner, *arguments, **options))
 
     def step(self, owner: Any, arguments: tuple, options: dict[str, Any]) -> LoopStep:
@@ -91,12 +89,7 @@ class LoopGraph:
         place = self._free_number(len(arguments), tuple(options))
         if place >= 0:
             options = options | {self._parameters.numbers[place]: 0.0}
-        # launches that are not bound to memory are made anew for each iteration
-        if not loops.records:
-            objects, values = self._arrange(owner, *arguments, **options)
-            found = self._recorded(loops, objects, values, Recording(is_run=False))
-            return step_of_recording(found, len(values), place)
-        # bound to memory: recorded once, without being run
+        # recorded once, without being run
         kept = owner.__dict__.get(self.name)
         if kept is None:
             kept = owner.__dict__[self.name] = KeptGraph()

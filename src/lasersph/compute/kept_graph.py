@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from array import array
+from collections.abc import Callable
 from typing import Any
 
 from lasersph.compute.access_paths import (
@@ -14,7 +14,6 @@ from lasersph.compute.access_paths import (
     owner_of,
 )
 from lasersph.compute.compiled_iteration import LoopStep
-from lasersph.compute.launch import list_function
 from lasersph.compute.loops import Loops
 from lasersph.compute.recording import Number, Recorded, Recording
 
@@ -30,6 +29,7 @@ class KeptGraph:
     """
 
     recording: Recording | None = None
+    _start: Callable[[], None]
 
     def __init__(self) -> None:
         self._paths: AccessPaths | None = None
@@ -38,9 +38,7 @@ class KeptGraph:
         self._listed: list[list[Any]] = []
         self._values: tuple | None = None
         self._places: list[tuple[Any, int, int]] = []
-        self._results: list[Any] = []
-        self._addresses = array("Q")
-        self._span = (0, 0)
+        self._reducing: list[Any] = []
         self._steps: dict[int, LoopStep] = {}
 
     def fits(self, loops: Loops, owner: Any, arguments: tuple, options: dict) -> tuple | None:
@@ -73,8 +71,8 @@ class KeptGraph:
     def run(self, values: tuple) -> tuple[float, ...]:
         """Run what was recorded, with these numbers; returns what its loops reduce."""
         self._set(values)
-        self._start(*self._span)
-        return tuple([number for numbers in self._results for number in numbers])
+        self._start()
+        return tuple([number for launch in self._reducing for number in launch.results])
 
     def step(self, values: tuple, place: int) -> LoopStep:
         """Step of an iteration by what was recorded, with these numbers but for one of them.
@@ -123,12 +121,10 @@ class KeptGraph:
             for name in names
             for memory in launch.memory_of(name)
         ]
-        # list of all launches, which compiled code runs one after the other
+        # list of all launches, which run one after the other
         launches = [one.launch for one in found.launches]
-        self._results = [launch.results for launch in launches if launch.reduces]
-        self._addresses = array("Q", [launch.address for launch in launches])
-        self._span = self._addresses.buffer_info()
-        self._start = list_function(loops.precision)
+        self._reducing = [launch for launch in launches if launch.reduces]
+        self._start = loops.launcher.list_of(launches, loops.precision)
         self.recording = found
 
     def _set(self, values: tuple) -> None:
@@ -220,7 +216,7 @@ def _has_rows(loops: Loops, one: Recorded, host: Any) -> bool:
 
 def _taken(loops: Loops, found: Recording) -> tuple[list[NamedArray], list[NamedArray]]:
     """Arrays that the launches of a recording take and it has not made, and row lists."""
-    made = {id(one) for one in found.arrays}
+    made = {id(owner_of(one)) for one in found.arrays}
     taken: dict[int, NamedArray] = {}
     rows: dict[int, NamedArray] = {}
     for _, call, _ in found.launches:

@@ -9,7 +9,7 @@ no result depends on the number of threads.
 from __future__ import annotations
 
 from array import array
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import cache
 from operator import methodcaller
 from typing import Any, NamedTuple
@@ -135,6 +135,17 @@ class Launcher:
     def launch(self, bound: Bound, *, holds: bool = True) -> Launch:
         """A loop ready to run; it keeps its arrays unless the caller does, who then says so."""
         return Launch(bound, self.threads, holds=holds)
+
+    def list_of(self, launches: Sequence[Launch], precision: str) -> Callable[[], None]:
+        """Function that runs launches one after the other, in compiled code."""
+        addresses = array("Q", [launch.address for launch in launches])
+        first, count = addresses.buffer_info()
+        start = list_function(precision)
+
+        def run(_held: array = addresses) -> None:
+            start(first, count)
+
+        return run
 
 
 class Launch:

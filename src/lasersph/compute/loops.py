@@ -63,8 +63,8 @@ class Given(NamedTuple):
 
 
 class Loops:
-    """All loops of one backend, found by signature and kinds; `records`: whether graphs can run
-    their loops again, which the `recorder` takes."""
+    """All loops of one backend, found by signature and kinds; the `recorder` takes those of graphs,
+    which are run again."""
 
     def __init__(
         self, precision: str, launcher: Launcher, unwrap: Callable, object_address: Callable = id
@@ -74,7 +74,6 @@ class Loops:
         self.real = np.dtype(precision)
         self._signatures: dict[Any, Signature] = {}
         self.recorder = Recorder()
-        self.records = launcher.rebinds
         self._rebinds = launcher.rebinds and has_known_layout()
         if self._rebinds:
             rebinding_function(precision)

@@ -64,7 +64,7 @@ class Recording:
 
     def __init__(self, before: Recording | None = None, *, is_run: bool = True) -> None:
         self.launches: list[Recorded] = []
-        self.arrays: list[np.ndarray] = []
+        self.arrays: list[Any] = []
         self.is_run = is_run
         self._before = before
 
@@ -90,8 +90,11 @@ class Recording:
         """Hold the recording before no longer."""
         self._before = None
 
-    def make(self, shape: int | tuple[int, ...], kind: np.dtype) -> np.ndarray:
+    def make(self, shape: int | tuple[int, ...], kind: np.dtype, empty: Callable[..., Any]) -> Any:
         """A new array, or the one that the recording before has made here.
+
+        Args:
+            empty: makes one of a shape and kind.
 
         Raises:
             ValueError: launches are only bound: nothing would set its elements to 0.
@@ -103,7 +106,7 @@ class Recording:
         kept = before.arrays[place] if before and place < len(before.arrays) else None
         wanted = shape if isinstance(shape, tuple) else (shape,)
         if kept is None or kept.shape != wanted or kept.dtype != kind:
-            kept = np.empty(shape, kind)
+            kept = empty(shape, kind)
         self.arrays.append(kept)
         return kept
 

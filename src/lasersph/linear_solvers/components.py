@@ -8,7 +8,7 @@ hundreds, so that the host labels them, as parts of an image.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -23,36 +23,55 @@ CELL = 0.35
 """Width of a cell over the support radius; 1.3 spacings where the support is 3.75."""
 FEWEST = 4
 """Parts with fewer particles belong to no component."""
+SLICE, SLICES = 4096, 256
+"""Members of a slice at least, and slices of a component: one row of a loop adds up a slice, so
+that all processors, and the threads of a card, share a large pool."""
 
 
-def total_of(k, values, order, start):
-    """Sum of the values of component k's members."""
+def slice_total(place, values, order, start):
+    """Sum of the values of one slice of a component's members; `place` counts all slices."""
+    k = place // SLICES
+    first, last = start[k], start[k + 1]
+    length = max(SLICE, (last - first + SLICES - 1) // SLICES)
+    begin = first + (place - k * SLICES) * length
     total = 0.0
-    for p in range(start[k], start[k + 1]):
+    for p in range(begin, min(begin + length, last)):
         total += values[order[p]]
     return total
 
 
-def share_of(k, boundary_coefficient, order, start):
-    """1 / members of a component that has no boundary coefficient; 0 for others and for none."""
-    if k == 0 or start[k] == start[k + 1] or total_of(k, boundary_coefficient, order, start) > 0.0:
+def total_of(k, totals):
+    """Sum of what the slices of component k have."""
+    total = 0.0
+    for p in range(k * SLICES, (k + 1) * SLICES):
+        total += totals[p]
+    return total
+
+
+def share_of(k, totals, start):
+    """1 / members of a component that has no boundary coefficient; 0 for others and for none.
+
+    Args:
+        totals: of the boundary coefficient.
+    """
+    if k == 0 or start[k] == start[k + 1] or total_of(k, totals) > 0.0:
         return 0.0
     return 1.0 / (start[k + 1] - start[k])
 
 
-def mean_of(k, share, values, order, start):
+def mean_of(k, share, totals):
     """Mean of the values of component k's members, 0 where the share is 0."""
     if share <= 0.0:
         return 0.0
-    return share * total_of(k, values, order, start)
+    return share * total_of(k, totals)
 
 
-def ratio_of(k, share, values, volume, order, start):
+def ratio_of(k, share, totals, volumes):
     """Sum of the values of component k's members over that of their volumes, 0 where the share is
     0."""
     if share <= 0.0:
         return 0.0
-    return total_of(k, values, order, start) / total_of(k, volume, order, start)
+    return total_of(k, totals) / total_of(k, volumes)
 
 
 def without_share(p, component, volume, means):
@@ -123,14 +142,20 @@ class Components:
         kept = self._members if self._share.shape[0] == self.count + 1 else None
         self._members = members_of(backend, self.number, self.count + 1, into=kept)
         if kept is None:
+            slices = (self.count + 1) * SLICES
             self._places = {"k": backend.asarray(np.arange(self.count + 1), "index")}
+            self._slices = {"place": backend.asarray(np.arange(slices), "index")}
+            self._totals = tuple([backend.zeros(slices) for _ in range(2)])
             self._share, self._means = (backend.zeros(self.count + 1) for _ in range(2))
-        self._sum(share_of, self._share, boundary_coefficient=boundary_coefficient)
+        totals = self._sum(boundary_coefficient)
+        start = self._members.row_start
+        backend.pointwise(share_of, self._places, self._share, totals=totals, start=start)
 
     def remove_means(self, values: Array) -> tuple[float, ...]:
         """Subtract from each floating component's values their mean; reduces the sum of squares."""
         fields = {"p": values, "component": self.number}
-        self._sum(mean_of, self._means, share=self._share, values=values)
+        shares = self._places | {"share": self._share}
+        self.backend.pointwise(mean_of, shares, self._means, totals=self._sum(values))
         out, reduce = (values, None), (None, "sum")
         return self.backend.pointwise(without_mean, fields, out, reduce=reduce, means=self._means)
 
@@ -138,16 +163,18 @@ class Components:
         """Subtract from each floating component's values their sum, by the volumes (n,) of its
         members; reduces the sum of squares."""
         fields = {"p": values, "component": self.number, "volume": volume}
-        self._sum(ratio_of, self._means, share=self._share, values=values, volume=volume)
+        shares = self._places | {"share": self._share}
+        totals = {"totals": self._sum(values), "volumes": self._sum(volume, 1)}
+        self.backend.pointwise(ratio_of, shares, self._means, **totals)
         out, reduce = (values, None), (None, "sum")
         return self.backend.pointwise(without_share, fields, out, reduce=reduce, means=self._means)
 
-    def _sum(
-        self, function: Callable, out: Array, share: Array | None = None, **arrays: Array
-    ) -> None:
-        fields = self._places if share is None else self._places | {"share": share}
+    def _sum(self, values: Array, which: int = 0) -> Array:
+        """Sums of the values of each slice of each component, in one of two arrays."""
         order, start = self._members.neighbor, self._members.row_start
-        self.backend.pointwise(function, fields, out, order=order, start=start, **arrays)
+        tables = {"values": values, "order": order, "start": start}
+        self.backend.pointwise(slice_total, self._slices, self._totals[which], **tables)
+        return self._totals[which]
 
 
 def connected_parts(is_filled: NDArray[np.bool_], repeats: Sequence[bool]) -> NDArray[np.int64]:

@@ -4,10 +4,8 @@ import os
 import subprocess
 import sys
 import warnings
-from pathlib import Path
 
 import numba_without
-import numpy as np
 import pytest
 
 from lasersph.compute import cache, numba_internals, trial
@@ -70,29 +68,3 @@ def test_trial(tmp_path, monkeypatch):
     kept.unlink()
     assert not trial.passes(tmp_path)
     assert not trial.passes(tmp_path) and kept.read_text() == "fails"
-
-
-STORED = """
-from numba import njit
-
-
-@njit(cache=True)
-def doubled(values):
-    values *= 2.0
-"""
-
-
-def test_full_disk(tmp_path, monkeypatch):
-    """Where Numba could not store machine code, it is not asked to."""
-    monkeypatch.setenv("LASERSPH_CACHE", str(tmp_path))
-
-    def full(folder):
-        raise OSError(28, "No space left on device")
-
-    monkeypatch.setattr(cache, "_refuse_full", full)
-    values = np.ones(8)
-    with pytest.warns(RuntimeWarning, match="not stored: .*No space left"):
-        module = cache.load(STORED)
-    module.doubled(values)
-    assert values.tolist() == [2.0] * 8
-    assert not list(Path(tmp_path, "__pycache__").iterdir())

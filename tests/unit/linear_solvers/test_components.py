@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from lasersph.compute.cell_grid import CellGrid
+from lasersph.linear_solvers import components as components_module
 from lasersph.linear_solvers.components import Components, connected_parts
 
 SUPPORT = 3.75
@@ -56,6 +57,27 @@ def test_means_of_floating_components_are_removed(backend):
     (square,) = components.remove_means(values)
     assert backend.to_host(values).tolist() == [-2.0, -1.0, 0.0, 1.0, 2.0, 5.0, 6.0, 7.0, 8.0, 9.0]
     assert square == 10.0 + 255.0
+
+
+def test_large_components_are_added_up_in_slices(backend, monkeypatch):
+    """Two of 35 and 15 members in slices of 16 at least: their means leave nothing."""
+    monkeypatch.setattr(components_module, "SLICE", 16)
+    monkeypatch.setattr(components_module, "SLICES", 4)
+    position = lines(0, 1, 2, 3, 4, 5, 6, 20, 21, 22)
+    components, number = found(backend, position)
+    assert number == [1] * 35 + [2] * 15
+    values = backend.asarray(np.arange(50.0) ** 2)
+    totals = backend.to_host(components._sum(values)).tolist()
+    squares = np.arange(50.0) ** 2
+    assert totals == [0.0] * 4 + [squares[:16].sum(), squares[16:32].sum(), squares[32:35].sum(),
+                                  0.0] + [squares[35:].sum(), 0.0, 0.0, 0.0]  # fmt: skip
+    volume = backend.asarray(np.full(50, 2.0))
+    for remove in (lambda: components.remove_means(values),
+                   lambda: components.remove_shares(values, volume)):  # fmt: skip
+        remove()
+        left = backend.to_host(values)
+        assert left[:35].sum() == pytest.approx(0.0, abs=1e-9)
+        assert left[35:].sum() == pytest.approx(0.0, abs=1e-9)
 
 
 def test_no_particle(backend):
