@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import partial
 from typing import Any
 
 from hot_loops.least import Least, least_of
 from lasersph.compute.backend import Backend
-from lasersph.compute.launch import Bound, Launch
+from lasersph.compute.launch import Bound, Launch, Launcher
 from lasersph.compute.loops import Loops
 from lasersph.compute.signature import Call
 
@@ -19,6 +19,10 @@ class CountingBackend(Backend):
     def __init__(self, threads: int | None) -> None:
         super().__init__(threads, "float64")
         self.loops = _CountedLoops(self.precision, self.launcher(), self.unwrap)
+
+    def launcher(self) -> Launcher:
+        """The launcher of the loops, which starts those of a graph one by one."""
+        return _SingleLauncher(self.threads, self.precision)
 
     def least(self, run: Callable[[], Any]) -> Least:
         """Run `run` once; returns the sum over its loops, called or those of graphs."""
@@ -40,14 +44,21 @@ def _ignore(call: Call) -> None:
     """Nothing is counted."""
 
 
+class _SingleLauncher(Launcher):
+    def list_of(self, launches: Sequence[Launch], precision: str) -> Callable[[], None]:
+        """Function that calls launches one after the other, so that each tells."""
+
+        def run() -> None:
+            for launch in launches:
+                launch()
+
+        return run
+
+
 class _CountedLoops(Loops):
-    """Loops that tell of each launch; graphs are run as they are, so that each time counts."""
+    """Loops that tell of each launch."""
 
     note: Callable[[Call], None] = staticmethod(_ignore)
-
-    def __init__(self, *given: Any) -> None:
-        super().__init__(*given)
-        self.records = False
 
     def run(self, call: Call) -> tuple[float, ...]:
         if self.recorder.recording is None:

@@ -71,23 +71,23 @@ class Backend:
 
     object_address = staticmethod(id)
     """Address of the NumPy object behind the caller's array, which compiled code reads."""
-    undefined: Callable[..., Any] = staticmethod(np.empty)
+    _undefined: Callable[..., Any] = staticmethod(np.empty)
     """Array of a shape and NumPy type with any elements, as `unwrap` gives it."""
-    zeroed: Callable[..., Any] = staticmethod(np.zeros)
+    _zeroed: Callable[..., Any] = staticmethod(np.zeros)
     """Array of a shape and NumPy type with elements 0, as `unwrap` gives it."""
 
     def zeros(self, shape: int | tuple[int, ...], kind: str = "real") -> Array:
         """Array of zeros; (n,) scalar, (dim, n) vector, (dim, dim, n) tensor fields."""
         recording = self.loops.recorder.recording
         if recording is None:
-            return self.wrap(self.zeroed(shape, self.kind(kind)))
-        array = self.wrap(recording.make(shape, self.kind(kind), self.undefined))
+            return self.wrap(self._zeroed(shape, self.kind(kind)))
+        array = self.wrap(recording.make(shape, self.kind(kind), self._undefined))
         self.fill(array, 0)
         return array
 
     def empty(self, shape: int | tuple[int, ...], dtype: Any) -> Array:
         """Array with undefined elements."""
-        return self.wrap(self.undefined(shape, np.dtype(dtype)))
+        return self.wrap(self._undefined(shape, np.dtype(dtype)))
 
     def asarray(self, array: ArrayLike, kind: str = "real") -> Array:
         """Copy of host data as an array of this backend."""
@@ -139,18 +139,18 @@ class Backend:
         if first.shape != second.shape:
             raise ValueError(f"copy of shape {first.shape} into shape {second.shape}")
         if self.loops.recorder.recording is None:
-            self.copy_elements(first, second)
+            self._copy_elements(first, second)
         else:
             self.pointwise(same, {"value": source}, destination)
 
-    def copy_elements(self, first: Any, second: Any) -> None:
+    def _copy_elements(self, first: Any, second: Any) -> None:
         """Copy elements at once, of arrays as `unwrap` gives them."""
         second[...] = first
 
     def fill(self, array: Array, value: float) -> None:
         """Set all elements."""
         if self.loops.recorder.recording is None:
-            self.fill_elements(self.unwrap(array), value)
+            self._fill_elements(self.unwrap(array), value)
             return
         number = int(value)
         if array.dtype.kind == "f":
@@ -158,7 +158,7 @@ class Backend:
         for k in range(math.prod(array.shape[:-1])):
             self.pointwise(constant, {}, self.component(array, k), value=number)
 
-    def fill_elements(self, whole: Any, value: float) -> None:
+    def _fill_elements(self, whole: Any, value: float) -> None:
         """Set all elements at once, of an array as `unwrap` gives it."""
         whole.fill(value)
 

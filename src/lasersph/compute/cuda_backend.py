@@ -41,7 +41,7 @@ class CudaBackend(Backend):
     """
 
     name = "cuda"
-    undefined = staticmethod(CudaArray.of_shape)
+    _undefined = staticmethod(CudaArray.of_shape)
 
     def __init__(self, precision: str) -> None:
         self.device = cuda_device.checked()
@@ -101,7 +101,7 @@ class CudaBackend(Backend):
         """Array of zeros; (n,) scalar, (dim, n) vector, (dim, dim, n) tensor fields."""
         return self.unwrap(super().zeros(shape, kind))
 
-    def zeroed(self, shape: int | tuple[int, ...], dtype: np.dtype) -> CudaArray:
+    def _zeroed(self, shape: int | tuple[int, ...], dtype: np.dtype) -> CudaArray:
         """Array with elements 0."""
         return CudaArray.of_shape(shape, dtype, cuda_memory.zeros)
 
@@ -109,13 +109,13 @@ class CudaBackend(Backend):
         """Return when the card has done everything that was started."""
         cuda_memory.wait()
 
-    def copy_elements(self, first: CudaArray, second: CudaArray) -> None:
+    def _copy_elements(self, first: CudaArray, second: CudaArray) -> None:
         """Copy elements at once."""
         for a, b in zip(first.parts, second.parts, strict=True):
             start(cuda_kernels.cast, first.shape[-1], a, b)
         second.changed()
 
-    def fill_elements(self, whole: CudaArray, value: float) -> None:
+    def _fill_elements(self, whole: CudaArray, value: float) -> None:
         """Set all elements at once."""
         for part in whole.parts:
             start(cuda_kernels.fill, whole.shape[-1], part, whole.dtype.type(value))

@@ -144,7 +144,7 @@ class Call:
         place = self._places[first] if count else 0
         return self._words[place : place + count].view(dtype)[:: 8 // dtype.itemsize]
 
-    def take(self, place: int, piece: Piece) -> None:
+    def replace(self, place: int, piece: Piece) -> None:
         """Another piece of the same kind as an argument."""
         first = self._places[place]
         self._words[first : first + len(piece.words)] = piece.words

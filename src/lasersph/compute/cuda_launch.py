@@ -196,7 +196,7 @@ class CudaLaunch:
     def take_rows(self, rows: CudaArray) -> None:
         """Run other rows from now on: (k,) numbers among those that there are, kind "index"."""
         self._rows = self._count[0] = rows.size
-        self._call.take(1, rows.parts[0])
+        self._call.replace(1, rows.parts[0])
         self._held = rows
 
     def memory_of(self, name: str) -> list[tuple[Any, int]]:

@@ -73,7 +73,7 @@ class Call:
         self._numbers.append((first, np.array(self._arguments[first : first + count], dtype)))
         return self._numbers[-1][1]
 
-    def take(self, place: int, piece: Piece) -> None:
+    def replace(self, place: int, piece: Piece) -> None:
         """Another piece of the same kind as an argument."""
         self._arguments[place] = piece
 

@@ -75,7 +75,7 @@ def test_numbers_and_pieces_change(card, precision):
     assert call._words[9:10].view(real)[0] == 2.5
     assert call._words[10:].view(np.int64)[0] == -7
     assert call.numbers(5, 0, real).size == 0
-    call.take(1, piece(card, (2,), "u4"))
+    call.replace(1, piece(card, (2,), "u4"))
     assert call._words[1:8].tolist() == [0, 0, 2, 4, FIRST, 2, 4]
 
 
