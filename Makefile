@@ -50,15 +50,17 @@ release: check
 clean:
 	rm -rf $(VENV) dist docs/_build docs/generated
 
-# Debian's Python may lack ensurepip (package python3-venv); the system's pip then fills the venv.
+# Filled by the pip beside PYTHON, in half the time that ensurepip takes to unpack and translate its
+# own; that does where there is no such pip, or no uv. Debian's Python may lack both.
 $(VENV)/bin/python:
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || { \
 	  echo "lasersph needs Python 3.11 or newer; '$(PYTHON)' is not. Try: make PYTHON=python3.11 ..." >&2; exit 1; }
-	@$(PYTHON) -m venv $(VENV) >/dev/null 2>&1 \
-	  || { rm -rf $(VENV); $(PYTHON) -m venv --without-pip $(VENV) \
-	       && $(PYTHON) -m pip --python $(VENV)/bin/python install --quiet pip; } \
+	@$(call new_venv,pip uv) || $(PYTHON) -m venv --clear $(VENV) >/dev/null 2>&1 || $(call new_venv,pip) \
 	  || { rm -rf $(VENV); echo "No virtual environment could be made: $(PYTHON) has neither venv nor" \
 	       "pip. On Debian: apt install python3-venv python3-pip" >&2; exit 1; }
+
+new_venv = { $(PYTHON) -m venv --clear --without-pip $(VENV) && $(PYTHON) -m pip \
+	  --disable-pip-version-check --python $(VENV)/bin/python install --quiet --no-compile $(1); } 2>/dev/null
 
 # A stamp per set of extras, renewed when the metadata changes.
 # Without bytecode, of which a run needs a part: half the time.
@@ -71,8 +73,7 @@ $(VENV)/.%: pyproject.toml | $(VENV)/bin/python
 	@touch $@
 
 # uv installs in a third of pip's time; pip does where uv cannot be had, or finds less than pip.
-install = $(PIP) install --quiet --no-compile uv 2>/dev/null \
-	  && $(VENV)/bin/uv pip install --quiet --python $(VENV)/bin/python --editable $(1) 2>/dev/null \
+install = $(VENV)/bin/uv pip install --quiet --python $(VENV)/bin/python --editable $(1) 2>/dev/null \
 	  || $(PIP) install --quiet --no-compile --editable $(1)
 
 # Tests run in as many processes as there are cores; in four at most, since each imports everything.

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 import typer
 
 from lasersph.cli.arguments import RunFolder, Settings, read_quantity
+from lasersph.cli.drawing import drawing_processes
 from lasersph.cli.failures import WrongCommand
 from lasersph.cli.sparkline import sparkline
 from lasersph.input.text_table import text_table
@@ -148,8 +149,10 @@ def plot(
     if animate:
         print(animate_run(folder, format=format))
         return
-    for file in draw_run(folder, kind=kind):
-        print(file)
+    with drawing_processes() as others:
+        others.begin()
+        for file in draw_run(folder, kind=kind, others=others):
+            print(file)
 
 
 def _draw_beams(name: str, settings: Sequence[str], kind: str) -> Path:
@@ -177,7 +180,9 @@ def report(folder: RunFolder, no_scene: NoScene = False) -> None:
     from lasersph.report import write_report
 
     opened(folder)
-    print(write_report(folder, with_scene=not no_scene))
+    with drawing_processes() as others:
+        others.begin()
+        print(write_report(folder, with_scene=not no_scene, others=others))
 
 
 def opened(folder: Path) -> Run:

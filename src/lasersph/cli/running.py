@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import shlex
-import sys
 from collections.abc import Sequence
+from contextlib import nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
@@ -23,6 +23,7 @@ from lasersph.cli.arguments import (
     refuse_backend,
     say_what_moved,
 )
+from lasersph.cli.drawing import begin_before_end, drawing_processes, say
 from lasersph.cli.engine_options import EngineOptions, Workers
 from lasersph.cli.failures import StoppedBySignal, WrongCommand
 from lasersph.cli.side_by_side import preparation, refuse_workers
@@ -31,7 +32,8 @@ from lasersph.cli.stop_signals import StopSignals
 if TYPE_CHECKING:
     from lasersph.case import Case
     from lasersph.cli.progress import WarningsOnce
-    from lasersph.simulation import Result
+    from lasersph.plots.drawing_processes import DrawingProcesses
+    from lasersph.simulation import Result, RunProgress
     from lasersph.studies import Input
 
 RUNS = Path("runs")
@@ -139,30 +141,28 @@ def run(
         again = resume or not is_own  # companions lie in our own folder
         with StopSignals(until_stdin_closes=until_stdin_closes) as signals:
             given = {**options, "resume": again, "overwrite": overwrite and is_own}
-            return _compute(case, path, signals, warnings, shlex.join(command), given)
+            drawing = None if uncertainty else others  # no process waits for all companions
+            return _compute(case, path, signals, warnings, shlex.join(command), given, drawing)
 
-    # One run, or a run with its companions.
-    if uncertainty:
-        from lasersph.cli.costs import say_cost
-        from lasersph.studies import assess_uncertainty
-        from lasersph.studies.uncertainty import runs_of_assessment
+    # One run, or a run with its companions, whose report several processes draw.
+    with drawing_processes(threads) if figures else nullcontext() as others:
+        if uncertainty:
+            from lasersph.cli.costs import say_cost
+            from lasersph.studies import assess_uncertainty
+            from lasersph.studies.uncertainty import runs_of_assessment
 
-        say_cost(runs_of_assessment(loaded, inputs), engine, backend, folder)
-        prepare = preparation(engine, shlex.join(command))
-        assess_uncertainty(loaded, folder, inputs=inputs, run=make, prepare=prepare, report=_say)
-    else:
-        make(loaded, folder)
-        # Nothing was computed, and its report shows all of it.
-        if resume and figures and _is_reported(folder):
-            print(f"{folder}: complete already; open {folder / REPORT} in a browser")
-            return
-    _tell(folder)
-    if figures:
-        _draw(folder)
-
-
-def _say(line: str) -> None:
-    print(line, file=sys.stderr, flush=True)
+            say_cost(runs_of_assessment(loaded, inputs), engine, backend, folder)
+            prepare = preparation(engine, shlex.join(command))
+            assess_uncertainty(loaded, folder, inputs=inputs, run=make, prepare=prepare, report=say)
+        else:
+            make(loaded, folder)
+            # Nothing was computed, and its report shows all of it.
+            if resume and figures and _is_reported(folder):
+                print(f"{folder}: complete already; open {folder / REPORT} in a browser")
+                return
+        _tell(folder)
+        if others is not None:
+            _draw(folder, others)
 
 
 def _uncertain_inputs(case: Case, given: Sequence[str], *, wanted: bool) -> list[Input]:
@@ -188,8 +188,13 @@ def _compute(
     warnings: WarningsOnce,
     again: str,
     options: dict[str, Any],
+    others: DrawingProcesses | None,
 ) -> Result:
-    """Run with progress; a signal ends it with a checkpoint and the way to go on."""
+    """Run with progress; a signal ends it with a checkpoint and the way to go on.
+
+    Args:
+        again: the command that goes on. options: of the run. others: draw its figures.
+    """
     from lasersph import simulation
     from lasersph.cli.progress import USUAL_LOOPS, RunDisplay
     from lasersph.compute.compiling import Compiling
@@ -198,12 +203,18 @@ def _compute(
 
     # Loops are compiled on the way; a signal stops the run between two steps.
     with RunDisplay(known_loops(case) or USUAL_LOOPS) as progress:
+
+        def show(status: RunProgress) -> None:
+            progress(status)
+            if others is not None:
+                begin_before_end(others, status)
+
         try:
             with Compiling(progress.compiling, progress.compiled) as compiling:
                 result = simulation.run(
                     case,
                     folder,
-                    progress=progress,
+                    progress=show,
                     warn=lambda text: warnings.show(text, progress.say),
                     should_stop=signals.asked,
                     **options,
@@ -234,17 +245,17 @@ def _is_reported(folder: Path) -> bool:
     return report.exists() and report.stat().st_mtime_ns >= summary.stat().st_mtime_ns
 
 
-def _draw(folder: Path) -> None:
+def _draw(folder: Path, others: DrawingProcesses) -> None:
     """Draw figures and report; their time grows with the particles and frames."""
     from lasersph.cli.progress import Drawn, ProgressDisplay
     from lasersph.report import write_report
 
-    _say("drawing figures and report")
+    say("drawing figures and report")
     with ProgressDisplay[Drawn](lambda one: f"drawing {one.name}") as display:
         # Elsewhere than on a terminal one line for all figures is enough.
         def show(name: str, count: int, total: int) -> None:
             if display.is_terminal:
                 display(Drawn(count, total, name))
 
-        path = write_report(folder, begun=show)
+        path = write_report(folder, begun=show, others=others)
     print(f"open {path} in a browser")

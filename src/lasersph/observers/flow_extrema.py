@@ -218,10 +218,20 @@ def local_maxima(values: np.ndarray, least: float) -> tuple[np.ndarray, np.ndarr
     Args:
         values: (n,), not below zero, zero at both ends. least: above zero finds no noise.
     """
-    from scipy.signal import find_peaks
+    # runs of equal values that are higher than both runs beside them; each stands in its middle
+    starts = np.append(0, np.flatnonzero(np.diff(values)) + 1)
+    ends = np.append(starts[1:], values.size) - 1
+    level = values[starts]
+    is_top = (level[1:-1] > level[:-2]) & (level[1:-1] > level[2:])
+    found = (starts[1:-1][is_top] + ends[1:-1][is_top]) // 2
+    # a maximum rises above the higher one of the valleys at its sides
+    valleys = [max(valley(values[k::-1]), valley(values[k:])) for k in found]
+    rise = values[found] - np.array(valleys, dtype=values.dtype)
+    counts = rise >= max(least, 1e-300)
+    return found[counts], rise[counts]
 
-    # nothing moves
-    if float(np.max(values)) <= 0.0:
-        return np.zeros(0, dtype=np.int64), np.zeros(0)
-    found, properties = find_peaks(values, prominence=max(least, 1e-300))
-    return found, properties["prominences"]
+
+def valley(values: np.ndarray) -> float:
+    """Lowest of the values (n,) from the first one to the next that is higher, if any is."""
+    higher = values > values[0]
+    return float(np.min(values[: np.argmax(higher)] if np.any(higher) else values))

@@ -61,6 +61,9 @@ def recoil_at(T: NDArray[np.floating], metal: Vaporization, ambient: float | Non
         ValueError: the metal has no molar mass.
     """
     constants = vapor_constants(metal)
+    # most surfaces are colder than where vapor exceeds the surroundings: their hottest place tells
+    if ambient is not None and saturation_pressure(float(np.max(T)), **constants) <= ambient:
+        return np.zeros(T.shape)
     pressure = [saturation_pressure(float(one), **constants) for one in T]
     if ambient is None:
         return np.array([recoil_pressure(p) for p in pressure])

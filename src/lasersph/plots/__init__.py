@@ -35,6 +35,7 @@ from lasersph.plots.history import (
     time_step_history,
 )
 from lasersph.plots.particle_map import arrangement, particle_map
+from lasersph.plots.pictures import draw_run
 from lasersph.plots.process_map import draw_process_map
 from lasersph.plots.pulses import pulses_compared
 from lasersph.plots.relief import (
@@ -44,7 +45,7 @@ from lasersph.plots.relief import (
     relief_profiles,
     topography_history,
 )
-from lasersph.plots.run_figures import captions, draw_run, plot
+from lasersph.plots.run_figures import captions, plot
 from lasersph.plots.surface_maps import (
     surface_flow_map,
     surface_height_map,

@@ -1,14 +1,12 @@
-"""The figures of one run, drawn from its folder: one as an object, or all into `figures/`."""
+"""The figures of one run, drawn from its folder, by name; `pictures` writes all of them."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from pathlib import Path
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
 from lasersph.input import did_you_mean
 from lasersph.output import OutputError, Run, RunOrFolder, open_run
-from lasersph.output.errors import clear_errors
 from lasersph.output.last_pulse import last_pulse, starts_after_pauses
 from lasersph.plots import flow_history, history, style
 from lasersph.plots.ablation_fields import has_ablation
@@ -322,50 +320,18 @@ def plot(run: RunOrFolder, name: str) -> Figure:
         OutputError: the run has no history yet, or nothing of what the figure shows.
         ValueError: there is no figure of this name.
     """
-    drawing = next((one for one in DRAWINGS if one.name == name), None)
-    if drawing is None:
+    if name not in captions():
         hint = did_you_mean(name, captions()) or f"; there are {', '.join(captions())}"
         raise ValueError(f'no figure "{name}"{hint}')
     # A figure of a train shows its last pulse, and says so.
-    opened = _with_history(run)
-    figure = _figure_of(opened, last_pulse(opened), drawing)
+    opened = with_history(run)
+    figure = figure_of(opened, last_pulse(opened), name)
     if figure is None:
         raise OutputError(f'{opened.path} has no figure "{name}": it has nothing of what it shows')
     return figure
 
 
-def draw_run(folder: RunOrFolder, *, kind: str = "png", begun: Begun | None = None) -> list[Path]:
-    """Draw all figures of a run into its folder `figures`; `plot` gives one of them.
-
-        lasersph.draw_run("runs/dlip-steel", kind="svg")
-
-    Args:
-        folder: a run, or its folder. kind: "png", "svg" or "pdf".
-        begun: called before each drawing: name, how many are drawn, of how many.
-
-    Returns:
-        The files written, in reading order.
-
-    Raises:
-        OutputError: the folder is no run folder, has no history yet, or cannot be written.
-    """
-    run = _with_history(folder)
-    target = run.path / "figures"
-    shown = last_pulse(run)
-    written = []
-    with clear_errors("write", target):
-        target.mkdir(exist_ok=True)
-        # Every figure that applies, in reading order; what is drawn next is said before.
-        for count, drawing in enumerate(DRAWINGS):
-            if begun is not None:
-                begun(drawing.name, count, len(DRAWINGS))
-            figure = _figure_of(run, shown, drawing)
-            if figure is not None:
-                written.append(style.save(figure, target / f"{drawing.name}.{kind}"))
-    return written
-
-
-def _with_history(folder: RunOrFolder) -> Run:
+def with_history(folder: RunOrFolder) -> Run:
     """The run in a folder. Raises OutputError where nothing can be drawn of it yet."""
     run = open_run(folder)
     if len(run.history.get("time_s", ())) < 2:
@@ -373,8 +339,9 @@ def _with_history(folder: RunOrFolder) -> Run:
     return run
 
 
-def _figure_of(run: Run, shown: Run, drawing: Drawing) -> Figure | None:
-    """A drawing of a run, whose last pulse is `shown`; None where it does not apply."""
+def figure_of(run: Run, shown: Run, name: str) -> Figure | None:
+    """A figure of a run, whose last pulse is `shown`, by name; None where it does not apply."""
+    drawing = next(one for one in DRAWINGS if one.name == name)
     figure = drawing.draw(run if drawing.has_all_pulses else shown)
     pulses = 1 + len(starts_after_pauses(run))
     if figure is not None and pulses > 1 and not drawing.has_all_pulses:

@@ -16,9 +16,11 @@ from lasersph.output.atomic import replace_text
 from lasersph.output.errors import clear_errors
 from lasersph.output.last_pulse import last_pulse, starts_after_pauses
 from lasersph.plots.ablation_fields import has_ablation
-from lasersph.plots.animation import LEAST_FRAMES, animate_run
+from lasersph.plots.animation import LEAST_FRAMES
+from lasersph.plots.drawing_processes import DrawingProcesses
 from lasersph.plots.flow_fields import has_flow
-from lasersph.plots.run_figures import DRAWINGS, Begun, draw_run, pulse_note
+from lasersph.plots.pictures import ANIMATION, draw_pictures
+from lasersph.plots.run_figures import DRAWINGS, Begun, captions, pulse_note
 from lasersph.report import tables, uncertainty_tables
 from lasersph.report.headline import TELLING_FIGURES, large_numbers, what_was_computed
 from lasersph.report.page import (
@@ -35,13 +37,17 @@ from lasersph.report.page import (
 from lasersph.report.scene import scene
 from lasersph.report.summary_text import note_texts, verdict, warning_texts
 
-ANIMATION = "Temperature, and speed with arrows or the ejecta, in time."
+ANIMATION_CAPTION = "Temperature, and speed with arrows or the ejecta, in time."
 GIVEN = "given: "
 """Begins the source of an uncertainty that the command gave."""
 
 
 def write_report(
-    folder: RunOrFolder, *, with_scene: bool = True, begun: Begun | None = None
+    folder: RunOrFolder,
+    *,
+    with_scene: bool = True,
+    begun: Begun | None = None,
+    others: DrawingProcesses | None = None,
 ) -> Path:
     """Draw the figures of a complete run and write its report.html.
 
@@ -54,6 +60,7 @@ def write_report(
         with_scene: whether it holds the viewer too, with the particles of at most 24 snapshots and
             5 MB; a browser without WebGL shows the figures alone.
         begun: called before each drawing: name, how many are drawn, of how many.
+        others: processes that draw as well; if not given, this one draws all figures.
 
     Returns:
         Path of the report.
@@ -69,13 +76,10 @@ def write_report(
             " go on with --resume"
         )
     # Figures, the animation where anything moves, then the page.
-    images = draw_run(folder, begun=begun)
-    if is_moving(run):
-        if begun is not None:
-            begun("animation", len(DRAWINGS), len(DRAWINGS))
-        images.append(animate_run(folder))
+    names = [*captions(), *([ANIMATION] if is_moving(run) else [])]
+    images = draw_pictures(run, names, begun=begun, others=others)
     if begun is not None:
-        begun("report", len(DRAWINGS), len(DRAWINGS))
+        begun("report", len(names), len(names))
     path = run.path / "report.html"
     with clear_errors("read", run.path):
         text = report_page(run, images, scene(run) if with_scene else "")
@@ -141,7 +145,7 @@ def figures_by_part(run: Run, images: list[Path]) -> dict[str, list[str]]:
     # Each image goes to its part, with a note where it shows only the last pulse.
     for image in images:
         drawing = drawings.get(image.stem)
-        caption = ANIMATION if drawing is None else drawing.caption
+        caption = ANIMATION_CAPTION if drawing is None else drawing.caption
         if pulses > 1 and not (drawing and drawing.has_all_pulses):
             caption += f" Here {pulse_note(pulses)}."
         wanted["results" if drawing is None else drawing.part].append((image, caption))

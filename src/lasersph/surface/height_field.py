@@ -338,6 +338,8 @@ def length_ratio(slopes: Array) -> Array:
 
 def along_axis(function: Callable[[Array], Array], axis: int, values: Array) -> Array:
     """A function of lines, which run along the first axis, applied to those along another one."""
+    if axis == 0:
+        return function(values)
     return np.moveaxis(function(np.moveaxis(values, axis, 0)), 0, axis)
 
 

@@ -8,7 +8,13 @@ from synthetic_dot import TIMES, below_lid, dot_view
 from synthetic_flow import FASTEST, liquid_rows, pool_flow
 from synthetic_run import NM, NS, PERIOD
 
-from lasersph.observers.flow_extrema import FlowExtrema, centers_of_tops, surface_extrema, zone_edge
+from lasersph.observers.flow_extrema import (
+    FlowExtrema,
+    centers_of_tops,
+    local_maxima,
+    surface_extrema,
+    zone_edge,
+)
 
 
 def test_two_extrema_are_found():
@@ -20,6 +26,22 @@ def test_two_extrema_are_found():
     assert inner[1] == pytest.approx(400 * NM, abs=60 * NM)
     assert inner[0] > outer[0]
     assert outer[1] == pytest.approx(PERIOD / 4, abs=5 * NM)
+
+
+def test_maxima_and_their_rise_are_those_of_scipy():
+    """Also of flat tops and of equal neighbors, the same bits; nothing where nothing moves."""
+    from scipy.signal import find_peaks
+
+    random = np.random.default_rng(3)
+    for count in range(3, 60):
+        for steps in (2, 5, 1000):
+            speed = np.round(random.random(count) * steps) / steps
+            speed[[0, -1]] = 0.0
+            found, rise = local_maxima(speed, 0.2)
+            expected, properties = find_peaks(speed, prominence=0.2)
+            assert found.tolist() == expected.tolist()
+            assert rise.tolist() == properties["prominences"].tolist()
+    assert [part.size for part in local_maxima(np.zeros(5), 0.0)] == [0, 0]
 
 
 def test_place_does_not_jump_between_maxima_of_one_top():

@@ -24,6 +24,7 @@ def test_recoil_against_surroundings():
     found, vacuum = recoil_at(T, STEEL, ATMOSPHERE), recoil_at(T, STEEL, None)
     assert found[0] == 0.0 and 0.05 * ATMOSPHERE < found[1] < 0.15 * ATMOSPHERE
     assert found[2:] == pytest.approx(vacuum[2:] - ATMOSPHERE)
+    assert recoil_at(T[:1], STEEL, ATMOSPHERE).tolist() == [0.0]
 
 
 def test_table():

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import cached_property
 from typing import Any, TypeVar
 
 import numpy as np
@@ -119,6 +120,11 @@ class HeatRecipe(Recipe[HeatT, SolverT]):
         vapor = self.case.material.vaporization
         return vapor.critical_temperature if vapor and self.settings.has_vapor_flux else None
 
+    @cached_property
+    def density(self) -> float:
+        """Density that fixed particles keep [kg/m^3]."""
+        return self.case.material.density_reference
+
     def evaporated(self, solver: Any) -> dict[str, Any]:
         """Fields of `View` of what has evaporated: thickness of each column [m], and its share of
         the surface; empty where it is not followed."""
@@ -128,7 +134,7 @@ class HeatRecipe(Recipe[HeatT, SolverT]):
         columns = filling.surface
         mass = solver.backend.host_view(solver.particles["evaporated_mass"])[columns]
         return {
-            "evaporated": mass / self.case.material.density_reference,
+            "evaporated": mass / self.density,
             "column_share": shares_of_surface(filling),
         }
 

@@ -18,7 +18,7 @@ from lasersph.observers.view import View
 from lasersph.simulation.recipes.conduction import HeatRecipe
 from lasersph.simulation.recipes.melt_pool.build import surface_line, with_flow
 from lasersph.simulation.recipes.melt_pool.forecast import flow_forecast, recession_warning
-from lasersph.simulation.recipes.melt_pool.view import flow_view
+from lasersph.simulation.recipes.melt_pool.view import flow_view, numbers_of
 from lasersph.simulation.recipes.recipe import FlowForecast, StepForecast
 from lasersph.simulation.scales import box_numbers, melt_numbers
 from lasersph.solvers.conduction.settings import ConductionSettings
@@ -45,6 +45,11 @@ class MeltPoolRecipe(HeatRecipe[MeltPoolSettings, MeltPool]):
             self.case, self.settings, self.layers.spacing, self.heating or self.melt
         )
 
+    @cached_property
+    def liquid_numbers(self) -> dict[str, float]:
+        """Numbers of the liquid for observers."""
+        return numbers_of(self.case.material)
+
     def build(self, backend: Backend) -> MeltPool:
         """The solver with its particles, at the start of the run; heat is implicit."""
         # The melt pool's settings of heat are those of conduction with the same names.
@@ -58,7 +63,7 @@ class MeltPoolRecipe(HeatRecipe[MeltPoolSettings, MeltPool]):
         observer looks at some states later than the step after which it is shown them."""
         backend = solver.backend
         fetch = backend.host_view if self.case.flow is None else backend.snapshot
-        flow = flow_view(self.case, solver, fetch)
+        flow = flow_view(self.case, self.liquid_numbers, solver, fetch)
         fields = self.heat_view(solver, step, limit, fetch)
         fields |= {"position": fetch(solver.position), "flow": flow}
         # Where the surface is: of the flow, else the top row of a box.

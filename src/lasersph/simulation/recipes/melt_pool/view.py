@@ -13,17 +13,27 @@ from lasersph.boundaries.settings import DIRICHLET, NEUMANN
 from lasersph.case import Case
 from lasersph.case.solver_choice import has_two_temperatures
 from lasersph.compute.array_types import Array
+from lasersph.materials import Material
 from lasersph.observers.flow_view import FlowView
 from lasersph.physics.recoil import recoil_at
 from lasersph.solvers.melt_pool.solver import MeltPool
 
 
-def flow_view(case: Case, solver: MeltPool, fetch: Callable[[Array], np.ndarray]) -> FlowView:
-    """The flow for observers; `fetch` gets an array of the solver."""
+def flow_view(
+    case: Case,
+    numbers: dict[str, float],
+    solver: MeltPool,
+    fetch: Callable[[Array], np.ndarray],
+) -> FlowView:
+    """The flow for observers.
+
+    Args:
+        numbers: of the liquid, see `numbers_of`. fetch: gets an array of the solver.
+    """
     flow = solver.flow
     free = solver.domain.surface
     backend = solver.backend
-    liquid, material = flow.liquid, case.material
+    liquid = flow.liquid
     position, velocity = fetch(solver.position), fetch(flow.velocity)
     pressure = fetch(flow.pressure)
     temperature = gradient = speed = np.zeros(0)
@@ -52,8 +62,7 @@ def flow_view(case: Case, solver: MeltPool, fetch: Callable[[Array], np.ndarray]
         jump = np.atleast_2d(backend.host_view(free.ghost_velocity_jump)[..., surface])[:level]
         speed = velocity[:level, surface] + flows * (0.5 * jump)
         speed = speed[0] if level == 1 else speed
-    T, sides = material.flow_temperature, case.geometry.faces
-    has_slope = material.surface_tension_slope is not None or material.surface_tension is not None
+    sides = case.geometry.faces
     is_box, kinds = case.flow is not None, {side: case.boundaries.kind_of(side) for side in sides}
 
     # Sides of a box with a given temperature, which walls of a block do not show.
@@ -76,10 +85,8 @@ def flow_view(case: Case, solver: MeltPool, fetch: Callable[[Array], np.ndarray]
         spacing_min=solver.spacing_min,
         density=liquid.density,
         viscosity=liquid.density * liquid.viscosity,
-        surface_tension_slope=float(material.surface_tension_slope_at(T)) if has_slope else 0.0,
         recoil_pressure=_recoil(case, temperature),
         box=is_box,
-        conductivity=float(material.conductivity_at(T)),
         wall_temperature=wall_temperature,
         conducting_sides=tuple(
             s for s, kind in kinds.items() if is_box and kind in (*DIRICHLET, NEUMANN)
@@ -88,7 +95,19 @@ def flow_view(case: Case, solver: MeltPool, fetch: Callable[[Array], np.ndarray]
         wall_impulse=dict(solver.exchange.impulse),
         wall_pressing={} if free.moves else dict(solver.exchange.pressing),
         full_step=solver.state.unclipped_step,
+        **numbers,
     )
+
+
+def numbers_of(material: Material) -> dict[str, float]:
+    """Numbers of the liquid that `FlowView` has and no step changes, each taken at one temperature:
+    conductivity [W/(m K)] and d gamma/dT [N/(m K)], 0 where it is not known."""
+    T = material.flow_temperature
+    has_slope = material.surface_tension_slope is not None or material.surface_tension is not None
+    return {
+        "conductivity": float(material.conductivity_at(T)),
+        "surface_tension_slope": float(material.surface_tension_slope_at(T)) if has_slope else 0.0,
+    }
 
 
 def _along_x(temperature: np.ndarray, position: np.ndarray) -> np.ndarray:
