@@ -19,7 +19,7 @@ CASE = "dlip-steel"
 SETTINGS = (
     "particles.spacing=100nm",
     "time.step=1ns",
-    "time.end=90ns",
+    "time.end=60ns",
     "output.snapshots.interval=10ns",
     "output.checkpoint_every=9",
 )

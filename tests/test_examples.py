@@ -20,6 +20,13 @@ ROOT = Path(__file__).resolve().parent.parent
 EXAMPLES = sorted((ROOT / "examples").glob("*/case.toml"))
 
 
+@pytest.fixture
+def few_forecasts(monkeypatch):
+    """Of the runs of a plan the first and the last are forecast: each takes a second, and it is in
+    reading the plan that a case refuses a point."""
+    monkeypatch.setattr("lasersph.sweeps.forecast.SAMPLED", 2)
+
+
 @pytest.mark.parametrize("case", EXAMPLES, ids=lambda case: case.parent.name)
 def test_example_gives_expected_numbers(case, tmp_path):
     """Each number of summary.json lies within the stated relative tolerance of its source."""
@@ -48,6 +55,7 @@ def test_every_example_explains_itself():
         assert case.with_name("README.md").read_text(encoding="utf-8").startswith("# ")
 
 
+@pytest.mark.usefixtures("few_forecasts")
 def test_plan_of_a_process_map(capsys):
     """The plan of an example is forecast: every point is a case, and nothing is refused."""
     plan = ROOT / "examples" / "process-map-steel" / "plan.toml"
@@ -59,6 +67,7 @@ def test_plan_of_a_process_map(capsys):
     assert plan.with_name("README.md").read_text(encoding="utf-8").startswith("# ")
 
 
+@pytest.mark.usefixtures("few_forecasts")
 @pytest.mark.parametrize("name", ["plan", "aluminium", "sensitivity", "viscosity", "sulfur"])
 def test_plans_beside_an_experiment(name, capsys):
     """Calibrations and sweeps of textures are forecast: every point is a case."""
@@ -68,6 +77,7 @@ def test_plans_beside_an_experiment(name, capsys):
     assert "refused" not in capsys.readouterr().out
 
 
+@pytest.mark.usefixtures("few_forecasts")
 @pytest.mark.parametrize(("metal", "fluence"), [("steel", "0.601"), ("aluminium", "1.016")])
 def test_texture_of_a_spot(metal, fluence, capsys):
     """The cases have the fluence of their page at the center, and their cells are forecast."""
@@ -99,10 +109,12 @@ def test_texture_from_real_cells(tmp_path, capsys):
 
 
 def test_notebook_runs(tmp_path, monkeypatch):
-    """The cells of "Read results in Python" run one after the other."""
+    """The cells of "Read results in Python" run one after the other, with a coarser run."""
     matplotlib.use("Agg")
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
     page = (ROOT / "docs" / "tutorials" / "reading-results.md").read_text(encoding="utf-8")
+    assert "spacing=32nm" in page
+    page = page.replace("spacing=32nm", "spacing=100nm")
     cells = re.findall(r"^```\{code-cell\}.*?\n(.*?)^```", page, flags=re.MULTILINE | re.DOTALL)
     assert len(cells) > 5
     names: dict[str, object] = {}

@@ -200,19 +200,19 @@ def test_vapor_takes_mass_and_heat():
 
 
 def test_steps_ends_and_threads(tmp_path):
-    """Half the step changes the hollow, while it grows, by less than 1 % (0.8 %; the relief that
+    """Half the step changes the hollow, while it grows, by less than 0.5 % (0.3 %; the relief that
     `spot-steel` leaves by 0.1 %); a run that is stopped and resumed, and one of two threads, leave
     the same bits."""
-    case = spot_case(**SPOT, time={"end": 2.6e-8})
+    case = spot_case(**SPOT, time={"end": 2.4e-8})
     run(case, tmp_path / "whole", threads=1)
     run_in_two_parts(case, tmp_path / "part")
     one, other = (open_run(tmp_path / name).snapshots[-1] for name in ("whole", "part"))
     for name in ("temperature", "velocity", "pressure"):
         assert one[name].tobytes() == other[name].tobytes()
-    run(spot_case(**SPOT, time={"end": 2.6e-8, "step": 2.5e-11}), tmp_path / "half")
-    ends = (open_run(tmp_path / name).surface.nearest(2.6e-8) for name in ("whole", "half"))
+    run(spot_case(**SPOT, time={"end": 2.4e-8, "step": 2.5e-11}), tmp_path / "half")
+    ends = (open_run(tmp_path / name).surface.nearest(2.4e-8) for name in ("whole", "half"))
     center, again = (float(each["position"][1][0]) for each in ends)
-    assert again == pytest.approx(center, rel=1e-2, abs=0.0)
+    assert again == pytest.approx(center, rel=5e-3, abs=0.0)
     assert center < -5e-9
 
 

@@ -1,6 +1,6 @@
 """Round bumps on a film in three dimensions, beside the sum of waves that is exact around an axis.
 
-A quarter of a square is computed, 5.5 radii wide or more, so that its other bumps are not felt.
+A quarter of a square is computed, 5 radii wide or more, so that its other bumps are not felt.
 """
 
 import numpy as np
@@ -44,11 +44,11 @@ def deviation(solver, wanted):
 
 def test_driven_by_a_bump_of_temperature():
     """10 ns of 10 K: within 3 % of the largest height everywhere with five rows; 2.8 % came out,
-    in the middle, and 2.5 % after 20 ns; in a square of 5 um 4.8 % there with four rows, 1.2 % with
+    in the middle, as in a square of 6.7 um, and 2.5 % after 20 ns; 4.8 % with four rows, 1.2 % with
     seven."""
     radius, depth, end = 1e-6, 280e-9, 1e-8
     heat = (f"{BUMP}.amplitude=10 K", f"{BUMP}.radius={radius} m")
-    solver = film_with_a_bump(6.72e-6, "particles.spacing=56 nm", *heat)
+    solver = film_with_a_bump(5.04e-6, "particles.spacing=56 nm", *heat)
     exact = FilmBump(LiquidFilm(depth, 1.0, 6863.0, 7e-3, 1.6, -4.3e-4), radius)
     go(solver, end)
     drive = Drive(temperature=10.0, end=2e-8)
@@ -57,17 +57,19 @@ def test_driven_by_a_bump_of_temperature():
 
 
 def test_free():
-    """A bump of 1 % of the depth, twice as wide as that: within 1 % of its first height."""
+    """A bump of 1 % of the depth, twice as wide as that, when it has lost an eighth of its first
+    height: within 0.5 % of this; 0.4 % came out with five rows, 0.2 % with seven. A surface tension
+    that is 8 % off is seen."""
     radius, depth, height = 2e-6, 1e-6, 1e-8
     start = f"amplitude = '{height} m', radius = '{radius} m'"
-    settings = (*ALUMINUM, f"domain.depth={depth} m", "particles.spacing=143 nm")
+    settings = (*ALUMINUM, f"domain.depth={depth} m", "particles.spacing=200 nm")
     solver = film_with_a_bump(
         1.1e-5, *settings, f"{BUMP}.amplitude=0 K", f"solver.flow.initial_surface={{ {start} }}"
     )
     film = LiquidFilm(depth, 1.0, 2379.0, 2.2747e-3, 0.87, 0.0)
-    exact, end = FilmBump(film, radius), np.sqrt(2379.0 * depth**3 / 0.87)
+    exact, end = FilmBump(film, radius), 0.5 * np.sqrt(2379.0 * depth**3 / 0.87)
     go(solver, end)
     line = solver.domain.surface.line
     wanted = exact.heights(np.hypot(*line.places).ravel(), [end], initial=height)[0]
     error = np.abs(line.height.ravel() - wanted).max() / height
-    assert error < 0.01
+    assert error < 0.005

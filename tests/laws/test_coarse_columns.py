@@ -42,7 +42,8 @@ SPACE = ("solver.geometry=planar", "solver.dimensions=3", "domain.width=200 um",
          "domain.extent=half", "domain.depth=60 um", "particles.kernel=cubic-spline",
          "particles.coarsest=10 um", "time.step=100 ns", "time.end=1 us")  # fmt: skip
 PLANE = ("solver.geometry=planar", "domain.width=240 um")
-POOL = ("particles.spacing=32 nm", "time.step=100 ps", "time.end=26 ns")
+POOL = ("particles.spacing=32 nm", "time.step=200 ps", "time.end=26 ns",
+        "output.snapshots.interval=26 ns")  # fmt: skip
 FLAT = ("solver.geometry=planar", "domain.extent=half", "domain.width=16 um",
         "solver.flow.surface=flat")  # fmt: skip
 MOVING = (*FLAT, "solver.flow.surface=moving", "material=steel-316l", "laser.reflectivity=0.3",

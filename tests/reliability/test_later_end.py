@@ -2,6 +2,7 @@
 
 import json
 import random
+import shutil
 
 import numpy as np
 import pytest
@@ -28,6 +29,12 @@ def folders(tmp_path_factory):
     compute(place / "late", *EARLY)
     compute(place / "late", *LATE)
     return place / "early", place / "late"
+
+
+@pytest.fixture
+def early(folders, tmp_path):
+    """Function that makes a folder of the run to the early end; the folder, `run` by default."""
+    return lambda name="run": shutil.copytree(folders[0], tmp_path / name)
 
 
 def test_a_complete_run_goes_on(folders):
@@ -57,11 +64,9 @@ def test_numbers_of_an_extended_run(folders, tmp_path):
 
 
 @pytest.mark.parametrize("seed", [1, 2])
-def test_a_killed_extension_is_resumed(folders, tmp_path, seed):
+def test_a_killed_extension_is_resumed(folders, early, seed):
     """Killed at random moments, then resumed, it ends with the bits of one left alone."""
-    moments = random.Random(seed)
-    folder = tmp_path / "run"
-    compute(folder, *EARLY)
+    moments, folder = random.Random(seed), early()
     for _ in range(2):
         kill_after(folder, moments.randint(1, 9), moments.uniform(0.0, 0.005), *LATE)
     assert not open_run(folder).is_complete
@@ -70,7 +75,7 @@ def test_a_killed_extension_is_resumed(folders, tmp_path, seed):
 
 
 @pytest.mark.parametrize("place", ["replace_text", "write_origin", "last_good"])
-def test_a_kill_while_the_summary_is_retracted(folders, tmp_path, place, monkeypatch):
+def test_a_kill_while_the_summary_is_retracted(folders, early, place, monkeypatch):
     """After each of its steps the old run comes back to its summary, or the new one goes on."""
 
     class Killed(BaseException):
@@ -80,9 +85,8 @@ def test_a_kill_while_the_summary_is_retracted(folders, tmp_path, place, monkeyp
         raise Killed
 
     owner = run_folder.RunFolder if place == "last_good" else run_owner
-    both = [tmp_path / name for name in ("back", "forth")]
+    both = [early(name) for name in ("back", "forth")]
     for folder in both:
-        compute(folder, *EARLY)
         with monkeypatch.context() as patch:
             if place == "write_origin":
                 patch.setattr(run_owner, "replace_json", die)
@@ -117,10 +121,9 @@ def test_other_changes_are_refused(folders, settings, text):
     assert results(folders[0])[:2] == before
 
 
-def test_a_damaged_last_checkpoint_is_no_end_to_go_on_from(folders, tmp_path):
+def test_a_damaged_last_checkpoint_is_no_end_to_go_on_from(early):
     """The summary is kept."""
-    folder = tmp_path / "run"
-    compute(folder, *EARLY)
+    folder = early()
     (file,) = checkpoint.candidates(folder / "checkpoint")
     file.write_bytes(file.read_bytes()[:-50])
     with pytest.raises(checkpoint.OutputError, match="there is nothing to go on from"):
@@ -144,10 +147,9 @@ def test_a_stopped_run_goes_on_with_other_output(tmp_path):
     assert np.allclose(np.diff(found.snapshots.times)[-3:-1], 4e-9)
 
 
-def test_overwriting(folders, tmp_path, capsys):
+def test_overwriting(early, tmp_path, capsys):
     """The run is replaced when the new case is right; a file of the user's stays."""
-    folder = tmp_path / "run"
-    compute(folder, *EARLY)
+    folder = early()
     (folder / "notes.txt").write_text("mine")
     (folder / "report.html").write_text("old")
     summary = (folder / "summary.json").read_bytes()

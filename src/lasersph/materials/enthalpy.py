@@ -17,6 +17,8 @@ Reference: [Demuth2020] Computation 8(1), 9.
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass, field
+from functools import lru_cache
 from itertools import pairwise
 from typing import Any
 
@@ -31,6 +33,10 @@ TEMPERATURE_TOLERANCE = 1e-3
 """Wanted distance between polyline and integral [K]."""
 NODE_LIMIT = 480
 """Cuts of all smooth pieces together, so that a curve stays below 512 nodes."""
+
+KEPT_CURVES = 32
+"""Curves that a process keeps. Format: those of some cases, each read, forecast and run; each is
+some kB."""
 
 Array = NDArray[np.float64]
 Function = Callable[[Array], Array]
@@ -167,6 +173,20 @@ class CurveBuilder:
         )
 
 
+@dataclass(frozen=True)
+class _Asked:
+    """Parts of a metal that a curve is made from, told apart by their numbers as text."""
+
+    numbers: tuple[str | None, ...]
+    initial_temperature: float
+    plateau: str
+    name: str
+    heat_capacity: Property[Any] = field(compare=False)
+    conductivity: Property[Any] = field(compare=False)
+    melting: Melting | None = field(compare=False)
+    vaporization: Vaporization | None = field(compare=False)
+
+
 def build_curve(
     *,
     heat_capacity: Property[Any],
@@ -177,7 +197,18 @@ def build_curve(
     plateau: str,
     name: str,
 ) -> CaloricCurve:
-    """The caloric curve of a material; see `Material.caloric_curve` for arguments and errors."""
+    """The caloric curve of a material, made once in a process; see `Material.caloric_curve` for
+    arguments and errors."""
+    parts = heat_capacity, conductivity, melting, vaporization
+    numbers = tuple(None if part is None else part.model_dump_json() for part in parts)
+    return _built(_Asked(numbers, float(initial_temperature), plateau, name, *parts))
+
+
+@lru_cache(maxsize=KEPT_CURVES)
+def _built(asked: _Asked) -> CaloricCurve:
+    """See `build_curve`."""
+    melting, vaporization = asked.melting, asked.vaporization
+    initial_temperature, plateau, name = asked.initial_temperature, asked.plateau, asked.name
     holds = plateau in ("hold", "clip") and vaporization is not None
     if plateau not in ("hold", "clip", "evaporate"):
         raise ValueError(f'plateau must be "hold", "clip" or "evaporate", got {plateau!r}')
@@ -193,7 +224,7 @@ def build_curve(
         )
 
     # pieces of the solid, of the melting range, of the liquid
-    c, k = heat_capacity, conductivity
+    c, k = asked.heat_capacity, asked.conductivity
     end = _end_of_curve(c, k, initial_temperature, melting, vaporization, holds)
     solid_end = melting.solidus if melting else end
     solid = _sensible(c.solid_law, k.solid_law, initial_temperature, solid_end, 0.0)

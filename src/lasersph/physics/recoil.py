@@ -12,6 +12,7 @@ M: `knudsen_layer`.
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,6 +32,8 @@ TABLE_START = 300.0
 TABLE_NODES = 4097
 """Nodes of that table. Accuracy: 2 K from node to node; the recoil, which doubles in 200 K, is
 within 1e-5."""
+KEPT_TABLES = 16
+"""Tables that a process keeps. Format: those of the metals of a study; each is some ten kB."""
 
 
 def recoil_pressure(p):
@@ -60,7 +63,11 @@ def recoil_at(T: NDArray[np.floating], metal: Vaporization, ambient: float | Non
     Raises:
         ValueError: the metal has no molar mass.
     """
-    constants = vapor_constants(metal)
+    return _recoil(T, vapor_constants(metal), ambient)
+
+
+def _recoil(T: NDArray[np.floating], constants: dict[str, float], ambient: float | None) -> Array:
+    """See `recoil_at`, with `evaporation.vapor_constants`."""
     # most surfaces are colder than where vapor exceeds the surroundings: their hottest place tells
     if ambient is not None and saturation_pressure(float(np.max(T)), **constants) <= ambient:
         return np.zeros(T.shape)
@@ -77,9 +84,15 @@ def tabulated_recoil(metal: Vaporization, ambient: float) -> Callable[[Array], A
     Raises:
         ValueError: the metal has no molar mass.
     """
-    T = np.linspace(TABLE_START, vapor_constants(metal)["T_c"], TABLE_NODES)
-    recoil = recoil_at(T, metal, ambient)
+    T, recoil = _table(ambient, **vapor_constants(metal))
     return lambda found: np.interp(found, T, recoil)
+
+
+@lru_cache(maxsize=KEPT_TABLES)
+def _table(ambient: float, **constants: float) -> tuple[Array, Array]:
+    """Temperatures [K] and gauge recoil [Pa], made once in a process."""
+    T = np.linspace(TABLE_START, constants["T_c"], TABLE_NODES)
+    return T, _recoil(T, constants, ambient)
 
 
 def recoil_moves_melt_at(radius: float, surface_tension: float, vapor: dict[str, float]) -> float:

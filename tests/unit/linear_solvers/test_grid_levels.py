@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from lasersph.compute.cuda_device import IS_SIMULATED
 from lasersph.linear_solvers import grid_nodes
 from lasersph.linear_solvers.cells import Axis
 from lasersph.linear_solvers.grid_correction import GridCorrection
@@ -125,11 +126,14 @@ def test_transfers_are_transposed(backend, axes):
 @pytest.mark.parametrize("dimension", [1, 2, 3])
 def test_damped_sweep_reduces_short_waves(backend, dimension):
     """What the next grid does not resolve: to a third in a plane, to five ninths in space, by the
-    same damping; on a line less well, to seven ninths."""
+    same damping; on a line less well, to seven ninths.
+
+    The simulator is given one wave of those that differ by an exchange of axes.
+    """
     level = with_volumes(backend, (Axis(8, 1.0, True),) * dimension, volume=1.0)
     v, largest = backend.to_host(level.at["v"]), 0.0
     for wave in np.ndindex((5,) * dimension):
-        if max(wave) < 2:
+        if max(wave) < 2 or (IS_SIMULATED and list(wave) != sorted(wave)):
             continue
         phase = 2.0 * np.pi / 8.0 * np.tensordot(wave, level.nodes.index, 1)
         x = np.cos(phase)

@@ -197,3 +197,15 @@ def test_nodes_are_read_only_and_must_rise() -> None:
             0.0,
             (0.0, 0.0),
         )
+
+
+def test_a_curve_is_made_once() -> None:
+    """The same metal, begin and plateau give the same curve, another number another one."""
+    steel = load_material("steel-304")
+    warmer = steel.model_copy(update={"heat_capacity": steel.heat_capacity.scaled(1.01)})
+    first = steel.caloric_curve(301.5, "hold")
+    assert load_material("steel-304").caloric_curve(301.5, "hold") is first
+    assert steel.caloric_curve(301.5, "hold", phase_change=False) is not first
+    assert warmer.caloric_curve(301.5, "hold").enthalpy_at(1000.0) == pytest.approx(
+        1.01 * first.enthalpy_at(1000.0), rel=1e-4
+    )

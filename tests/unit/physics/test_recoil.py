@@ -36,6 +36,16 @@ def test_table():
     assert tabulated_recoil(STEEL, ATMOSPHERE)(np.array([100.0])).tolist() == [0.0]
 
 
+def test_tables_are_kept_apart():
+    """A table that is asked for again is of the same metal and the same surroundings."""
+    steel, gold = (load_material(name).vaporization for name in ("steel-304", "gold"))
+    hot = np.array([3600.0])
+    for _ in range(2):
+        for metal, ambient in ((steel, 1e5), (gold, 1e5), (steel, 5e4)):
+            found = tabulated_recoil(metal, ambient)(hot)
+            assert found == pytest.approx(recoil_at(hot, metal, ambient), rel=1e-4, abs=1e-3)
+
+
 def test_recoil_against_capillary_pressure():
     """With 2 gamma/(0.54 r) = 1 atm the recoil moves the melt from the boiling point on."""
     aluminium = vapor_constants(load_material("aluminium").vaporization)
