@@ -53,11 +53,10 @@ def coarse(tmp_path_factory):
 
 
 def error_of(step):
-    """Root mean square error over the body [K], and the largest temperature's."""
+    """Root mean square error over the body [K], and the largest error over the largest rise."""
     (r, z), T = step["position"], step["temperature"]
     error = T - gaussian_source(r, z, 2e-6)
-    hottest = np.argmax(T)
-    return np.sqrt(np.average(error**2, weights=r)), error[hottest] / (T[hottest] - 300.0)
+    return np.sqrt(np.average(error**2, weights=r)), np.abs(error).max() / (T.max() - 300.0)
 
 
 def test_energy_of_a_pulse(coarse):
@@ -69,11 +68,12 @@ def test_energy_of_a_pulse(coarse):
 
 
 def test_converges_to_the_closed_form(coarse, tmp_path):
-    """Of second order, steps as the square of the spacing; 0.5 % of the rise at w/10."""
+    """Of second order, steps as the square of the spacing; w/10: 0.65 % of the rise anywhere, the
+    axis no more than rings beside it."""
     fine = computed(tmp_path / "fine", "particles.spacing=2 um", "time.step=6.4 ns")
-    (first, _), (second, hottest) = error_of(coarse[1]), error_of(fine[1])
+    (first, _), (second, largest) = error_of(coarse[1]), error_of(fine[1])
     assert np.log(first / second) / np.log(2.0) > 1.8
-    assert abs(hottest) < 5e-3
+    assert largest < 6.5e-3
 
 
 def test_the_axis_makes_no_flaw(coarse):

@@ -40,7 +40,8 @@ def solver_of(folder, *settings):
 
 @pytest.mark.parametrize("columns", [20, 40])
 def test_laplacian_of_a_square(tmp_path, columns):
-    """That of r^2 is 4: 5, 2 and 0.1 % too much in the first columns, exact farther out."""
+    """That of r^2 is 4: 4.0 and 2.5 % too much in the first columns, 0.1 % too little in the third,
+    exact farther out, in every row."""
     _, solver = solver_of(tmp_path, f"particles.spacing={40 / columns} um")
     body = solver.body
     r = body.filling.position[0, : body.count]
@@ -48,9 +49,10 @@ def test_laplacian_of_a_square(tmp_path, columns):
     fields = {"g_ij": body.pairs.weights, "P": body.backend.asarray(r * r)}
     body.backend.pair_sum(flow, body.pairs.neighbors, fields, out)
     ratio = body.backend.to_host(out) / (4.0 * body.filling.body_volume)
-    rows = ratio.reshape(-1, columns)[5:-5]
-    assert rows[:, :3] == pytest.approx(np.tile([1.053, 1.016, 1.001], (len(rows), 1)), abs=2e-3)
-    assert rows[:, 3 : columns - 5] == pytest.approx(1.0, abs=2e-3)
+    rows = ratio.reshape(-1, columns)
+    assert rows.shape[0] >= 10
+    assert rows[:, :3] == pytest.approx(np.tile([1.0395, 1.0254, 0.9985], (len(rows), 1)), abs=1e-3)
+    assert rows[:, 3 : columns - 5] == pytest.approx(1.0, abs=1e-3)
 
 
 def test_held_cylinder_cools_as_a_bessel_function(tmp_path):

@@ -24,16 +24,16 @@ from lasersph.materials.hot_optics import HotOptics
 from lasersph.particles.filling import Filling
 
 
-def enter_hot_column(F, T_s, area, nu_nodes, R_nodes, depths, bottom):
+def enter_hot_column(F, nu, area, nu_nodes, R_nodes, depths, bottom):
     """Light that enters a column [J/m^(d-1)], what its cell reflects, what passes its bottom [J],
     and alpha [1/m].
 
     Args:
-        T_s: rate of collisions at the surface [1/s], in the place of its temperature. area: of the
-            cell [m^(d-1)]. nu_nodes, R_nodes, depths: table. bottom: depth of the lowest end [m].
+        nu: rate of collisions at the surface [1/s]. area: of the cell [m^(d-1)]. nu_nodes, R_nodes,
+            depths: table. bottom: depth of the lowest end [m].
     """
-    R = interpolate(T_s, nu_nodes, R_nodes)
-    alpha = 1.0 / interpolate(T_s, nu_nodes, depths)
+    R = interpolate(nu, nu_nodes, R_nodes)
+    alpha = 1.0 / interpolate(nu, nu_nodes, depths)
     return (1.0 - R) * F, R * F * area, (1.0 - R) * F * area * exp(-alpha * bottom), alpha
 
 
@@ -112,9 +112,11 @@ class HotLight(LayeredLight):
         self._optical = self._thickness()
         self._light = self.backend.zeros(self._cells + 1)
 
-    def _find_entering(self, fields: dict[str, Array], shares: dict[str, Array]) -> None:
-        """As `LayeredLight`, and the shares of the particles with the alpha of their columns."""
+    def _illuminate_columns(self, at_surface: Array, shares: dict[str, Array]) -> None:
+        """As `LayeredLight` with rates of collisions [1/s]; set the shares of the particles with
+        the alpha of their columns."""
         backend, alphas = self.backend, self._alphas
+        fields = {"F": self.fluence, "area": self._area, "nu": at_surface}
         out, reduce = (self.columns, None, None, alphas), (None, "sum", "sum", None)
         backend.pointwise(enter_hot_column, fields, out, reduce=reduce, **self._entering)
         if self.alpha is None:

@@ -320,8 +320,13 @@ class LayeredLight:
             total, other, distance = other, total, 2 * distance
         return total
 
-    def _find_entering(self, fields: dict[str, Array], shares: dict[str, Array]) -> None:
-        """Set the light that enters the columns; reduces what is reflected and transmitted [J]."""
+    def _illuminate_columns(self, at_surface: Array, shares: dict[str, Array]) -> None:
+        """Let the light enter the columns; reduces what is reflected and transmitted [J].
+
+        Args:
+            at_surface: T_s of each column [K]. shares: of the particles, see `take_light`.
+        """
+        fields = {"F": self.fluence, "area": self._area, "T_s": at_surface}
         out, reduce = (self.columns, None, None), (None, "sum", "sum")
         self.backend.pointwise(enter_column, fields, out, reduce=reduce, **self._entering)
 
@@ -358,8 +363,7 @@ class LayeredLight:
         Reduces what is reflected, transmitted and absorbed [J].
         """
         backend, table = self.backend, {"columns": self.columns}
-        fields = {"F": self.fluence, "area": self._area}
-        self._find_entering(fields | {"T_s": backend.head(T_s, self.columns.shape[0])}, shares)
+        self._illuminate_columns(backend.head(T_s, self.columns.shape[0]), shares)
         if "share" in shares:
             backend.pointwise(absorb_light, shares, self.deposit, reduce=("sum",), **table)
             return

@@ -319,6 +319,9 @@ def _layer(
         columns = int(layers.columns[axis, inside])
         width = float(layers.column_width()[axis, inside])
         ghosts = [0 if kinds[end] == FREE else beyond for end in (low, high)]
+        # a mirror sees the body once where nothing lies beyond the other end
+        if (kinds[low], kinds[high]) == (FREE, MIRROR):
+            ghosts[1] = min(beyond, columns)
         # as far as there are coarse columns
         for end, kind in enumerate((kinds[low], kinds[high])):
             if kind == JOINED:

@@ -16,6 +16,13 @@ from those beside them by several times.
 from __future__ import annotations
 
 from lasersph.compute.vectors import dot, matvec, vector
+from lasersph.particles.filling import GHOSTS
+
+REACH = GHOSTS
+"""Layers above and below one with which its rings are evened. Geometry: supports reach no
+further."""
+STEPS = 2 * REACH + 1
+"""Additions of a ring. Geometry: one for each of these layers, and its own."""
 
 
 def ring_weight(g_ij, measure_i, measure_j):
@@ -30,6 +37,25 @@ def ring_weight(g_ij, measure_i, measure_j):
 def ring_weight_off_axis(g_ij, measure_i, measure_j, x_j):
     """`ring_weight`, and 0 toward a ghost beyond the axis."""
     return ring_weight(g_ij, measure_i, measure_j) if x_j[0] > 0.0 else 0.0 * g_ij
+
+
+def evened_ring_weight(g_ij, layer_i, layer_j, ring_i, ring_j, has_none_j, additions, layers):
+    """Weight of heat between two rings, g_ij (1 + b_i + b_j) with g_ij by `ring_weight`, see
+    `even_rings`: symmetric, and not negative.
+
+    Args:
+        layer: number of the layer, negative above the surface. ring: number of the ring, of a dummy
+            that of its source. has_none: 1 for dummies without b. additions: table of b, ring after
+            ring. layers: how many there are.
+    """
+    steps = int(layer_j - layer_i)
+    if steps < -REACH or steps > REACH:
+        return 1.0 * g_ij
+    b_i = additions[int(ring_i) * STEPS + REACH + steps]
+    # seen from a mirrored layer up is down
+    back = steps if layer_j < 0.0 or layer_j >= layers else -steps
+    b_j = additions[int(ring_j) * STEPS + REACH + back]
+    return g_ij * max(1.0 + b_i + (1.0 - has_none_j) * b_j, 0.0)
 
 
 def hoop_share(r_i, r_j):

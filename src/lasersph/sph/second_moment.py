@@ -39,6 +39,10 @@ PULL = 1e-3
 """Weight of keeping the factors near 1 against meeting the moments, in the least squares sense.
 Accuracy: 1e-6 in the sum, so that moments are met where they can be."""
 
+LEAST_SHARE = 1e-9
+"""Share of what a layer conducts along its normal below which it gives another one nothing.
+Rounding: weights at the end of a support are 0 but for that."""
+
 
 @dataclass(frozen=True)
 class LayerFactors:
@@ -53,16 +57,32 @@ class LayerFactors:
 
 
 @lru_cache(maxsize=1)  # heat and flow of a run ask for the same
+def _solved(
+    layers: Layers, kernel: Kernel, support_ratio: float, mean: Callable[[float, float], float]
+) -> tuple[_Lattice, NDArray[np.int64], Array, Array]:
+    """The short stack in which all layers of different surroundings occur, the layer of it that
+    each layer is, and its factors of planes and layers."""
+    # coarse columns have weights of their own
+    short, index = _shortened(layers.fine_only if layers.beside else layers)
+    lattice = _Lattice(short, kernel, support_ratio, mean)
+    return lattice, index, *lattice.solve()
+
+
+def layer_exchange(
+    layers: Layers, kernel: Kernel, support_ratio: float, mean: Callable[[float, float], float]
+) -> Array:
+    """(layers, 2 GHOSTS + 1) what each layer gives that `GHOSTS - k` above it, per area and unit
+    difference of P: the sum of the corrected weights of a planar cell over its area [1/m]."""
+    lattice, index, planes, lateral = _solved(layers, kernel, support_ratio, mean)
+    return lattice.exchange(planes, lateral)[index]
+
+
+@lru_cache(maxsize=1)
 def layer_factors(
     layers: Layers, kernel: Kernel, support_ratio: float, mean: Callable[[float, float], float]
 ) -> LayerFactors:
     """Solve for the factors of all layers, mirrored beyond surface and bottom."""
-    # coarse columns have weights of their own
-    layers = layers.fine_only if layers.beside else layers
-    # factors of the short stack, in which all layers of different surroundings occur
-    short, index = _shortened(layers)
-    lattice = _Lattice(short, kernel, support_ratio, mean)
-    planes, lateral = lattice.solve()
+    _, index, planes, lateral = _solved(layers, kernel, support_ratio, mean)
     total = layers.thickness.size
 
     # layers beyond the faces mirror those inside
@@ -143,6 +163,30 @@ class _Lattice:
         factors = ones + change
         return factors[:planes], factors[planes:]
 
+    def exchange(self, planes: Array, lateral: Array) -> Array:
+        """(layers, 2 GHOSTS + 1) sums of the weights between two layers over their area [1/m]."""
+        total, d = self.total, self.layers.thickness
+        found = np.zeros((total, 2 * GHOSTS + 1))
+        for k in range(total):
+            for step in (*range(-GHOSTS, 0), *range(1, GHOSTS + 1)):
+                other, z = self._neighbor(k, k + step)
+                if other is None or abs(z) >= self._support(k, other):
+                    continue
+                # the mean factor of the planes that are crossed, and that of both layers
+                along, across, _, _ = self._moments(k, other, z)
+                normal = planes[self._crossed(k, k + step)].mean()
+                weight = along * normal + 0.5 * across * (lateral[k] + lateral[other])
+                if weight * z * z > LEAST_SHARE * (d[k] + d[other]):
+                    found[k, GHOSTS + step] = weight
+        return found
+
+    def _crossed(self, k: int, number: int) -> NDArray[np.int64]:
+        """Places of the planes between layers k and `number`, those beyond the faces mirrored."""
+        crossed = np.arange(min(k, number), max(k, number))
+        mirrored = np.where(crossed < -1, -2 - crossed, crossed)
+        last = self.total - 1
+        return np.where(mirrored > last, 2 * last - mirrored, mirrored) + 1
+
     def _neighbor(self, k: int, number: int) -> tuple[int | None, float]:
         """Layer inside that layer `number` mirrors, and its z."""
         total = self.total
@@ -167,13 +211,9 @@ class _Lattice:
 
         # planes between the two layers, those beyond the faces mirrored; the pair takes their mean
         low, high = min(k, number), max(k, number)
-        crossed = np.arange(low, high)
-        mirrored = np.where(crossed < -1, -2 - crossed, crossed)
-        last = self.total - 1
-        mirrored = np.where(mirrored > last, 2 * last - mirrored, mirrored) + 1
-        share = np.zeros(planes)
+        crossed, share = self._crossed(k, number), np.zeros(planes)
         if crossed.size:
-            np.add.at(share, mirrored, 1.0 / crossed.size)
+            np.add.at(share, crossed, 1.0 / crossed.size)
         # pairs of two inner layers are met from both sides
         counted = 0.5 if 0 <= number < self.total else 1.0
         # normal condition: g |z| of the pair counts in each plane that it crosses

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -11,7 +12,7 @@ from numpy.typing import NDArray
 
 from lasersph.boundaries import Boundaries
 from lasersph.boundaries.settings import Surroundings
-from lasersph.compute.array_types import Array
+from lasersph.compute.array_types import Array, Constants
 from lasersph.compute.backend import Backend
 from lasersph.irradiation.hot_light import HotLight
 from lasersph.irradiation.layered import LayeredLight
@@ -29,11 +30,12 @@ from lasersph.particles.particles import Particles
 from lasersph.particles.support import arithmetic, graded
 from lasersph.physics.phase_change import state
 from lasersph.solvers.conduction.walls import walls_of
+from lasersph.sph.even_rings import RingPairs, ring_additions
 from lasersph.sph.face_weights import PairRows, pairs_beside, without_joined
 from lasersph.sph.kernels import Kernel, kernel
 from lasersph.sph.laplacian import layered_weight, weight
-from lasersph.sph.rings import ring_weight
-from lasersph.sph.second_moment import layer_factors
+from lasersph.sph.rings import evened_ring_weight, ring_weight
+from lasersph.sph.second_moment import layer_exchange, layer_factors
 from lasersph.surface.surface import upward
 
 KINDS = {"adiabatic": MIRROR, "prescribed-flux": MIRROR, "periodic": PERIODIC, "free": FREE}
@@ -72,6 +74,7 @@ class Body:
     tables: dict[str, Array]
     surroundings: Surroundings
     free: Array | None = None
+    additions: Array | None = None
 
     @property
     def count(self) -> int:
@@ -106,7 +109,7 @@ def assemble(
     ends = {face: KINDS[boundaries.kind_of(face)] for face in ENDS}
     filling = fill(layers, sides=KINDS[boundaries.sides], **ends)
     weighing = weighing_of(lattice, layers, use_second_moment=use_second_moment)
-    neighbors, pairs = _weights(backend, weighing, filling)
+    neighbors, pairs, additions = _weights(backend, weighing, filling)
     crossing = None
     if filling.beside is not None:
         pairs, crossing = pairs_beside(filling, pairs)
@@ -161,6 +164,7 @@ def assemble(
         tables={name: backend.asarray(nodes) for name, nodes in curve.tables.items()},
         surroundings=boundaries.surroundings(material, curve.initial_temperature),
         free=free,
+        additions=additions,
     )
     body.update_temperature()
     return body
@@ -173,6 +177,7 @@ class Weighing:
     Attributes:
         kernel, mean: of the list. ratio: support radius over thickness. function: pair function of
             g_ij with its constants. factors: layer numbers (k,) -> factors N and a (k,).
+            exchange: by which layers of a plane exchange heat; None where rings stay as printed.
     """
 
     kernel: Kernel
@@ -181,6 +186,7 @@ class Weighing:
     function: Callable[..., Any]
     constants: dict[str, Any]
     factors: Callable[[NDArray[np.int64]], tuple[NDArray[np.float64], NDArray[np.float64]]]
+    exchange: Callable[[], NDArray[np.float64]] | None = None
 
 
 def weighing_of(lattice: Lattice, layers: Layers, *, use_second_moment: bool) -> Weighing:
@@ -192,8 +198,9 @@ def weighing_of(lattice: Lattice, layers: Layers, *, use_second_moment: bool) ->
         return Weighing(shape, mean, ratio, weight, {}, _equal_factors)
     # factors N and a of each layer, by which a linear profile conducts exactly
     up = upward(layers.dimension)
-    factors = layer_factors(layers, shape, ratio, mean)
-    return Weighing(shape, mean, ratio, layered_weight, {"up": up}, factors.at)
+    stack = layers, shape, ratio, mean
+    factors, exchange = layer_factors(*stack), partial(layer_exchange, *stack)
+    return Weighing(shape, mean, ratio, layered_weight, {"up": up}, factors.at, exchange)
 
 
 def _equal_factors(layer: NDArray[np.int64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -203,8 +210,9 @@ def _equal_factors(layer: NDArray[np.int64]) -> tuple[NDArray[np.float64], NDArr
 
 def _weights(
     backend: Backend, weighing: Weighing, filling: Filling
-) -> tuple[NeighborList, PairRows]:
-    """Pairs of the fine particles with dummies: the list, and rows and weights on the host."""
+) -> tuple[NeighborList, PairRows, Array | None]:
+    """Pairs of the fine particles with dummies: the list, rows and weights on the host, and
+    additions to those of rings."""
     # fine particles and their dummies
     seen = filling.fine_numbers
     layer = filling.layer[seen]
@@ -227,10 +235,6 @@ def _weights(
     )
     weights = backend.zeros(backend.to_host(neighbors.neighbor).size)
     backend.pair_values(weighing.function, neighbors, fields, weights, **weighing.constants)
-    # pairs of rings pass on heat through the mean ring
-    if filling.is_axisymmetric:
-        rings = {"g_ij": weights, "measure": backend.asarray(filling.measure[seen])}
-        backend.pair_values(ring_weight, neighbors, rings, weights)
 
     # row of each pair, on the host, where faces are assembled
     row_start = backend.to_host(neighbors.row_start).astype(np.int64)
@@ -238,7 +242,55 @@ def _weights(
     neighbor = backend.to_host(neighbors.neighbor)
     if filling.beside is not None:
         neighbor = np.arange(filling.position.shape[1])[seen][neighbor]
-    return neighbors, PairRows(row, neighbor, np.array(backend.to_host(weights)))
+    additions = None
+    # pairs of rings pass on heat through the mean ring, along z as those of a plane
+    if filling.is_axisymmetric:
+        rings = {"g_ij": weights, "measure": backend.asarray(filling.measure[seen])}
+        backend.pair_values(ring_weight, neighbors, rings, weights)
+        if weighing.exchange is not None:
+            pairs = PairRows(row, neighbor, backend.to_host(weights))
+            has_none = _stands_for_no_ring(filling)
+            found = _additions(filling, pairs, has_none, weighing.exchange())
+            additions = backend.asarray(found.ravel())
+            rings = {"g_ij": weights, "layer": fields["layer"]}
+            rings["ring"] = backend.asarray(filling.source[seen].astype(float))
+            rings["has_none"] = backend.asarray(has_none[seen].astype(float))
+            table: Constants = {"additions": additions, "layers": float(_last_layer(filling) + 1)}
+            backend.pair_values(evened_ring_weight, neighbors, rings, weights, **table)
+    return neighbors, PairRows(row, neighbor, np.array(backend.to_host(weights))), additions
+
+
+def _last_layer(filling: Filling) -> int:
+    """Number of the lowest layer."""
+    return int(filling.layer[: filling.count].max())
+
+
+def _stands_for_no_ring(filling: Filling) -> NDArray[np.bool_]:
+    """(N,) dummies without additions: of given temperature, or in the place of coarse columns."""
+    has_none = filling.dirichlet > 0
+    if filling.beside is not None:
+        has_none[filling.beside.joined] = True
+    return has_none
+
+
+def _additions(
+    filling: Filling,
+    pairs: PairRows,
+    has_none: NDArray[np.bool_],
+    exchange: NDArray[np.float64],
+) -> NDArray[np.float64]:
+    """Additions of the rings, with which they conduct along z as layers of a plane do."""
+    # dummies have those of their sources
+    i, j, layer = pairs.row, pairs.neighbor, filling.layer
+    other = np.where(has_none[j], -1, filling.source[j].astype(np.int64))
+    # layers between both, and as a mirrored layer sees them
+    steps = layer[j] - layer[i]
+    is_mirrored = (layer[j] < 0) | (layer[j] > _last_layer(filling))
+    back = np.where(is_mirrored, steps, -steps)
+    # what each ring gives a layer of a plane
+    count = filling.fine_count
+    wanted = filling.cross_section[:count, None] * exchange[layer[:count]]
+    return ring_additions(RingPairs(i, other, steps, back, pairs.weight), wanted)
 
 
 def _listed(

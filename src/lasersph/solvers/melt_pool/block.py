@@ -141,6 +141,11 @@ class Block:
         return self.layers.fields["V"]
 
     @property
+    def heat_weights(self) -> Array:
+        """(pairs,) weights with which heat is conducted, [1] of a plane."""
+        return self.weights
+
+    @property
     def ring_fields(self) -> dict[str, Array]:
         """Fields that the flow of rings reads beside those of a plane section."""
         return {}

@@ -137,7 +137,7 @@ class BlockExchange(FaceExchange):
     @graph
     def sum_walls(self, block: Block) -> None:
         """A and A P_w + b of each row near a face, face by face."""
-        fields = {"g_ij": block.weights, "heat_face": block.walls.faces["heat_face"]}
+        fields = {"g_ij": block.heat_weights, "heat_face": block.walls.faces["heat_face"]}
         for face, number in self._numbers.items():
             self.backend.pair_sum(
                 heat_of_pair,

@@ -34,7 +34,8 @@ class StaticParticleData:
     Attributes:
         geometry: of the block. position: (d, n) on the lattice [m]. support: (n,) [m]. volume: (n,)
             of the cells [m^2]. layer: (n,). layers: how many there are.
-        weighing: how pairs are weighed.
+        weighing: how pairs are weighed. additions: to the weights of rings with which they conduct
+            heat, an array of the backend; None where there are none.
     """
 
     geometry: Geometry
@@ -44,6 +45,7 @@ class StaticParticleData:
     layer: np.ndarray
     layers: int
     weighing: Weighing
+    additions: Array | None = None
 
 
 class BlockLayers:

@@ -126,7 +126,7 @@ class FaceExchange:
     @graph
     def sum_walls(self, block: Block) -> None:
         """A and A P_w + b of each row near a face, by face."""
-        fields = {"g_ij": block.weights, "heat_face": block.walls.faces["heat_face"]}
+        fields = {"g_ij": block.heat_weights, "heat_face": block.walls.faces["heat_face"]}
         self.backend.pair_sum(
             heat_terms,
             block.pairs,

@@ -50,14 +50,14 @@ class HeatPairs:
         row_start, neighbor = block.pairs.row_start, block.without_ghosts().neighbor
         if rows is None:
             pairs.neighbors = replace(pairs.neighbors, row_start=row_start, neighbor=neighbor)
-            pairs.weights = block.weights
+            pairs.weights = block.heat_weights
             return
 
         # rows of the block in the place of the old ones, all others as they are
         chosen, ones = backend.zeros(body.count, "flag"), backend.zeros(rows.shape[0], "flag")
         backend.fill(ones, 1)
         backend.scatter(ones, rows, chosen)
-        first = PairRows(row_start, neighbor, block.weights)
+        first = PairRows(row_start, neighbor, block.heat_weights)
         others = PairRows(pairs.neighbors.row_start, pairs.neighbors.neighbor, pairs.weights)
         joined = splice(backend, first, chosen, others)
         pairs.neighbors = replace(
@@ -69,7 +69,7 @@ class HeatPairs:
     def weigh(self, block: Block, rows: Rows | None) -> None:
         """Terms of walls, weights between particles and their sums."""
         backend, body, pairs = self.backend, self.body, self.body.pairs
-        fields = {"g_ij": block.weights} | block.walls.rules
+        fields = {"g_ij": block.heat_weights} | block.walls.rules
         # A, A P_w + b and A T_w of rows near faces, 0 of others; g_ij = 0 toward Dirichlet faces
         if block.walls.exchange_heat:
             out = (pairs.boundary_coefficient, body.wall_flow, body.wall_heat)
@@ -84,8 +84,10 @@ class HeatPairs:
                 finish=wall_sums,
                 min_distance=block.walls.min_distance,
             )
-            backend.pair_values(inner_weight, block.pairs, fields, block.weights, rows=near)
+            backend.pair_values(inner_weight, block.pairs, fields, block.heat_weights, rows=near)
 
         # S_i = sum_j g_ij, and the mark of rows that have moved
-        backend.pair_sum(weight_of, block.pairs, {"g_ij": block.weights}, pairs.total, rows=rows)
+        backend.pair_sum(
+            weight_of, block.pairs, {"g_ij": block.heat_weights}, pairs.total, rows=rows
+        )
         backend.pointwise(one, {"mark": self._renewed}, self._renewed, rows=rows)

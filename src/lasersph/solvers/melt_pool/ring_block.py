@@ -2,7 +2,9 @@
 
 Below a flat surface particles stay where they are: positions never change, and so no pair does.
 What has been found once holds, and only rows that the melt comes near to for the first time are
-found anew. Below a surface that moves they ride with it, and pairs are found in every step.
+found anew. Below a surface that moves they ride with it, and pairs are found in every step. Heat
+takes weights of its own, those of the flow with what makes rings even along z (`sph.even_rings`);
+pressure and viscosity do not: beside the axis they are off as the divergence is.
 """
 
 from __future__ import annotations
@@ -11,11 +13,11 @@ from typing import Any
 
 import numpy as np
 
-from lasersph.compute.array_types import Array
+from lasersph.compute.array_types import Array, Constants
 from lasersph.solvers.melt_pool.block import Block
 from lasersph.solvers.melt_pool.block_terms import either
 from lasersph.solvers.melt_pool.tangent_block import TangentBlock
-from lasersph.sph.rings import ring_weight_off_axis
+from lasersph.sph.rings import evened_ring_weight, ring_weight_off_axis
 
 
 def join_new(found, near):
@@ -41,6 +43,13 @@ class Rings(Block):
         beside = np.any(types.crossed[:-1] != 0, axis=0)
         self._tangents = self.ghosts.particles.table(types.crosses_surface * (1.0 + beside))
         self.measure = self._radii = self.tangents = self._lengths
+        self._numbers = self.backend.asarray(np.arange(float(self.count)))
+        self._heat = self.weights
+
+    @property
+    def heat_weights(self) -> Array:
+        """(pairs,) weights of heat [m]."""
+        return self._heat
 
     @property
     def ring_fields(self) -> dict[str, Array]:
@@ -63,6 +72,20 @@ class Rings(Block):
         fields = {"g_ij": self.weights, "measure": self.measure}
         self.backend.pair_values(
             ring_weight_off_axis, self.pairs, fields, self.weights, rows=self.rows
+        )
+        self._heat = self.weights
+        if self.lattice.additions is None:
+            return
+        # weights of heat, which make rings even along z
+        self._heat = self._geometry.per_pair("heat")
+        fields = {"g_ij": self.weights, "layer": self.layers.fields["layer"]}
+        fields |= {"ring": self.gather(self._numbers), "has_none": self.walls.rules["dirichlet"]}
+        table: Constants = {
+            "additions": self.lattice.additions,
+            "layers": float(self.lattice.layers),
+        }
+        self.backend.pair_values(
+            evened_ring_weight, self.pairs, fields, self._heat, rows=self.rows, **table
         )
 
 

@@ -81,7 +81,7 @@ class TangentBlock(Block):
         backend, rules = self.backend, self.walls.rules
 
         # length through which the pairs pass a flux on
-        fields = {"g_ij": self.weights, "across": self.across}
+        fields = {"g_ij": self.heat_weights, "across": self.across}
         fields |= {name: rules[name] for name in ("flux", "normal", "plane")}
         (seen,) = backend.pair_sum(
             flux_length, self.pairs, fields, (None,), rows=self.rows_near_faces, reduce=("sum",)

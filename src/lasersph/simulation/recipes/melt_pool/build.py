@@ -58,6 +58,7 @@ def with_flow(case: Case, settings: MeltPoolSettings, layers: Layers, heat: Cond
         layer=filling.layer[:count],
         layers=layers.thickness.size,
         weighing=weighing,
+        additions=body.additions,
     )
     conditions = face_conditions(case, layers)
 
