@@ -68,12 +68,13 @@ def test_energy_of_a_pulse(coarse):
 
 
 def test_converges_to_the_closed_form(coarse, tmp_path):
-    """Of second order, steps as the square of the spacing; w/10: 0.65 % of the rise anywhere, the
-    axis no more than rings beside it."""
-    fine = computed(tmp_path / "fine", "particles.spacing=2 um", "time.step=6.4 ns")
+    """Of second order, steps as the square of the spacing; w/12: 0.5 % of the rise anywhere."""
+    ratio = 2.4
+    settings = f"particles.spacing={4.0 / ratio!r} um", f"time.step={25.6 / ratio**2!r} ns"
+    fine = computed(tmp_path / "fine", *settings)
     (first, _), (second, largest) = error_of(coarse[1]), error_of(fine[1])
-    assert np.log(first / second) / np.log(2.0) > 1.8
-    assert largest < 6.5e-3
+    assert np.log(first / second) / np.log(ratio) > 1.8
+    assert largest < 5e-3
 
 
 def test_the_axis_makes_no_flaw(coarse):
