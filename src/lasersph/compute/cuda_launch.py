@@ -167,8 +167,7 @@ class CudaLaunch:
         pieces = [part for one in arrays for part in one.parts]
         reals, whole = compiled.numbers
         numbers = [*[compiled.real.type(0)] * reals, *[np.int64(0)] * whole]
-        most = max(groups(bound.listed, SUMMING_GROUPS), 1) * len(self.reductions)
-        self._room = _room(most, compiled.real) if most else None
+        self._room = _room(len(self.reductions), compiled.real) if self.reductions else None
         ends = [] if self._room is None else [self._room.piece]
         self._call = Call(compiled.entry, [np.uint64(bound.rows), *pieces, *numbers, *ends])
         # memory of the numbers, which later runs take
@@ -235,6 +234,6 @@ class CudaLaunch:
 
 
 @cache
-def _room(size: int, real: Any) -> Any:
-    """Place for the groups' values; read before another loop starts, so that one serves all."""
-    return Room(size, real)
+def _room(reductions: int, real: Any) -> Any:
+    """Place for the values of all groups; read before another loop starts: one serves all."""
+    return Room(reductions * SUMMING_GROUPS, real)
