@@ -35,6 +35,8 @@ def timed(command: list[str], folder: Path, loops: Path) -> float:
     """Seconds of a command in a folder, with its own folder of compiled loops."""
     variables = os.environ | {"LASERSPH_CACHE": str(loops), "MPLBACKEND": "Agg"}
     variables.pop("PYTHONPATH", None)
+    # Cells of tutorials call lasersph, as in an environment that is active.
+    variables["PATH"] = os.pathsep.join([str(BIN), variables.get("PATH", os.defpath)])
     begin = perf_counter()
     done = subprocess.run(command, cwd=folder, env=variables, capture_output=True, text=True)
     if done.returncode:
