@@ -95,7 +95,10 @@ class EnergyBudget(Observer):
             is_main=True,
         ),
     )
-    results = (Quantity("energy.unit", "", "unit of the energies"),)
+    results = (
+        Quantity("energy.moved_J", "J", "largest of the energy absorbed, lost and held, sum m |h|"),
+        Quantity("energy.unit", "", "unit of the energies"),
+    )
     kept = ("start", "scale")
 
     def __init__(self, dimension: int) -> None:
@@ -124,8 +127,8 @@ class EnergyBudget(Observer):
         return row
 
     def values(self) -> dict[str, object]:
-        """The unit of the terms."""
-        return {"energy.unit": self.unit}
+        """The energy moved, and the unit of the terms."""
+        return {"energy.moved_J": self.scale, "energy.unit": self.unit}
 
 
 def imbalance(terms: dict[str, float]) -> float:

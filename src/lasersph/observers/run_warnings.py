@@ -46,8 +46,13 @@ def found_warnings(summary: Mapping[str, Any], last: Mapping[str, Any] | None = 
     ]
 
 
-def exchanged(energy: Mapping[str, Any]) -> float:
-    """Largest of the energies absorbed, stored and lost [J]."""
+def energy_moved(energy: Mapping[str, Any]) -> float:
+    """Largest energy absorbed, lost and held during a run [J].
+
+    Older summaries do not hold it: what was stored at the end stands for it there.
+    """
+    if "moved_J" in energy:
+        return energy["moved_J"]
     return max(abs(energy[f"{name}_J"]) for name in ("absorbed", "stored", "lost"))
 
 
@@ -64,7 +69,7 @@ def _energy(summary: Mapping[str, Any]) -> Iterator[str]:
         yield f"the energy balance does not close within {share} of the energy moved"
     for name in NUMERICAL:
         # one numerical term over the energy moved
-        share = energy.get(f"{name}_max_J", 0.0) / max(exchanged(energy), 1e-300)
+        share = energy.get(f"{name}_max_J", 0.0) / max(energy_moved(energy), 1e-300)
         if share > NUMERICAL_ALLOWED:
             yield f"the {TERMS[name]} is {format_number(100.0 * share, 3)} % of the energy moved"
 

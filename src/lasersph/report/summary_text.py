@@ -8,7 +8,6 @@ from lasersph.input.key_units import is_section
 from lasersph.observers.run_warnings import (
     allowed_imbalance,
     event_warnings,
-    exchanged,
     found_warnings,
 )
 from lasersph.report.tables import moment, quantity, shown
@@ -107,7 +106,7 @@ def balance(summary: dict[str, Any]) -> list[str]:
     """How well the energy budget closes; nothing where no energy went anywhere."""
     # Nothing to balance without energy.
     energy = summary["energy"]
-    if not exchanged(energy):
+    if not any(energy[f"{name}_J"] for name in ("absorbed", "stored", "lost")):
         return []
     error = energy["imbalance_relative"]
     if error < 1e-14:
