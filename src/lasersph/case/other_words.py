@@ -1,11 +1,12 @@
 """Words of other programs for the keys of a case, so that `check` can say ours.
 
-A key in full, or beginning with a dot inside its own table; several are tried in turn. What begins
-with a semicolon is what to do where lasersph has no such key. Words may name their table first.
+A key in full, or beginning with a dot inside its own table; several are tried in turn. What stands
+behind a semicolon is what to do where none of them fits. Words may name their table first.
 """
 
 from lasersph.materials.other_words import MATERIAL_WORDS, SLOPES
 
+HALF = "; write half of it as radius, or as radius_1e2 of a super-gaussian"
 SLOPE = '; write surface_tension_slope = "-0.4 mN/(m K)" in [material]'
 
 OTHER_WORDS = MATERIAL_WORDS | {
@@ -33,11 +34,11 @@ OTHER_WORDS = MATERIAL_WORDS | {
     "radius": "laser.beam.radius_1e2 laser.beam.radius",
     "waist": "laser.beam.radius_1e2 laser.beam.radius",
     "w0": "laser.beam.radius_1e2 laser.beam.radius",
-    "spot_diameter": "laser.beam.diameter_1e2",
-    "beam_diameter": "laser.beam.diameter_1e2",
-    "spot_size": "laser.beam.diameter_1e2 laser.beam.radius",
-    "beam.diameter": "laser.beam.diameter_1e2 laser.beam.radius",
-    "diameter": "laser.beam.diameter_1e2",
+    "spot_diameter": "laser.beam.diameter_1e2" + HALF,
+    "beam_diameter": "laser.beam.diameter_1e2" + HALF,
+    "spot_size": "laser.beam.diameter_1e2" + HALF,
+    "diameter": "laser.beam.diameter_1e2" + HALF,
+    "beam.width": "; write its radius, and inner_radius of a ring, each half of a diameter",
     "profile": "laser.beam.kind",
     "speed": "laser.path.velocity",
     # block and time

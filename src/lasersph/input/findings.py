@@ -233,7 +233,8 @@ class Misplaced:
     """Sources that are asked for the place of an unknown key.
 
     `other_words` has words of other programs: the keys that they mean here, separated by spaces,
-    or, with a semicolon before it, what to do instead. A word may name its table before a dot.
+    and behind a semicolon what to do where none of them fits. A word may name its table before a
+    dot.
     """
 
     document: Document
@@ -256,17 +257,11 @@ def place_of_unknown(path: Path, asked: Misplaced) -> tuple[str, Path | None]:
     word = key.lower().replace("-", "_")
     meant = asked.other_words.get(f"{table[-1]}.{word}" if table else word, "")
     meant = meant or asked.other_words.get(word, "")
-    if meant.startswith(";"):
-        return meant[1:].strip(), None
+    keys, _, advice = meant.partition(";")
 
     # 2. Places where the key, or one spelt alike, is known.
-    near = nearest(key, known)
-    candidates = [_path_of(word, table) for word in meant.split()]
-    is_of_kind = bool(schema.kinds(table, key))
-    candidates += [] if is_of_kind else _named(key, table, asked)
-    candidates += [(*table, near)] if near else []
-    alike = nearest(key, {str(place[-1]) for place in schema.places(document.data)})
-    candidates += _named(alike, table, asked) if alike and not is_of_kind else []
+    candidates = [_path_of(word, table) for word in keys.split()]
+    candidates += [] if advice else _alike(key, table, asked)
 
     # 3. The first of them that the data leave free, and whose kind of quantity fits.
     for target in candidates:
@@ -278,13 +273,28 @@ def place_of_unknown(path: Path, asked: Misplaced) -> tuple[str, Path | None]:
         if fits:
             return f"leave it out: {'.'.join(map(str, target))} is given", None
 
-    # 4. Another kind of the same table knows the key; else the keys known here.
+    # 4. What to do instead; another kind of the same table knows the key; the keys known here.
+    if advice:
+        return advice.strip(), None
     kinds = schema.kinds(table, key)
     if kinds:
         owners = "belongs to " + " or ".join(f'kind = "{kind}"' for kind in kinds)
         return owners + _left_out(path, document), None
     shown = ", ".join(known)
     return (f"known here: {shown}" if 0 < len(known) <= MOST_KEYS else "leave it out"), None
+
+
+def _alike(key: str, table: Path, asked: Misplaced) -> list[Path]:
+    """Places of the key itself in other tables, and of keys that are spelt alike."""
+    schema, data = asked.schema, asked.document.data
+    near = nearest(key, schema.keys(table, data))
+    here = [(*table, near)] if near else []
+    # A key of another kind of this table stays here.
+    if schema.kinds(table, key):
+        return here
+    alike = nearest(key, {str(place[-1]) for place in schema.places(data)})
+    elsewhere = _named(alike, table, asked) if alike else []
+    return [*_named(key, table, asked), *here, *elsewhere]
 
 
 def _left_out(path: Path, document: Document) -> str:
