@@ -36,7 +36,6 @@ LONG_COUNTED = {
     "methods/melt_pool.md": "formulas",
     "methods/moving_surface.md": "formulas",
     "methods/sections.md": "formulas and the bars of its tables",
-    "notes/first-hour.md": "the tables of seven walks, kept as they were written",
     "results.md": "tables of files and keys to look things up in",
     "texture.md": "commands and their tables",
 }

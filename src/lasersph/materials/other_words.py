@@ -1,7 +1,7 @@
 """Names that other programs give to the keys of a material, so that a message can say ours.
 
 See `input.findings.Misplaced`: keys in full, or beginning with a dot inside their own table; what
-begins with a semicolon is what to do instead.
+stands behind a semicolon is what to do where none of them fits.
 """
 
 SLOPE = '; write [surface_tension_slope] with value = "-0.4 mN/(m K)", source = "where it is from"'
@@ -9,11 +9,17 @@ LAW = (
     '; write table = [["300 K", "first value"], ["2000 K", "last value"]], which is linear between '
     "its rows"
 )
+INDEX = (
+    "; write refractive_index and extinction_coefficient, with their source, into "
+    '[optics.by_wavelength."1064 nm"]'
+)
 SLOPES = tuple(
     f"surface_tension.{word}"
     for word in ("slope", "gradient", "temperature_coefficient", "dgamma_dt")
 )
 """Names that a change of the surface tension with temperature has in its table."""
+INDICES = ("n", "k", "refractive_index", "extinction_coefficient")
+"""Names of both parts of the complex refractive index, which belong to a wavelength."""
 MATERIAL_WORDS = dict.fromkeys(SLOPES, SLOPE) | {
     "specific_heat": ".heat_capacity",
     "specific_heat_capacity": ".heat_capacity",
@@ -43,6 +49,7 @@ MATERIAL_WORDS = dict.fromkeys(SLOPES, SLOPE) | {
     "dsigma_dt": ".surface_tension_slope",
     "slope": LAW,
     "temperature_coefficient": LAW,
+    **dict.fromkeys((f"optics.{word}" for word in INDICES), INDEX),
     "emissivity": ".optics.emissivity",
     "absorptivity": "; write reflectivity = 1 - absorptivity",
     "absorptance": "; write reflectivity = 1 - absorptance",

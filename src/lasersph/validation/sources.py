@@ -18,6 +18,8 @@ PACKAGE = "lasersph"
 ROOT = Path(__file__).parents[1]
 NO_NUMBERS = {"cli", "plots", "report", "studies"}
 """Rooms that cannot change a computed number."""
+ONLY_WORDS = {"case.other_words", "input.findings", "materials.other_words"}
+"""Files that cannot either: what they say is said of a case that is not computed."""
 NUMBERS_OF_VALIDATION = {"comparison", "lattices", "tables"}
 """Files of this room that can, beside those in the folder of a validation."""
 JUDGE = f"{PACKAGE}.validation.comparison"
@@ -49,10 +51,11 @@ def hashes(modules: Iterable[str]) -> dict[str, str]:
 
 def _has_no_numbers(module: str) -> bool:
     # Only some files of this room judge; figures never do.
-    room, *inner = [*module.split(".")[1:], ""]
+    path = module.removeprefix(f"{PACKAGE}.")
+    room, *inner = [*path.split("."), ""]
     if room == "validation" and len(inner) == 2:
         return inner[0] not in NUMBERS_OF_VALIDATION
-    return room in NO_NUMBERS or module.endswith(".figures")
+    return room in NO_NUMBERS or path in ONLY_WORDS or module.endswith(".figures")
 
 
 @cache

@@ -28,6 +28,7 @@ def test_a_solver_without_the_others():
         assert f"lasersph.{module}" in found
     for module in ("solvers.melt_pool.flow", "solvers.ablation.solver", "plots.style"):
         assert f"lasersph.{module}" not in found
+    assert "lasersph.input.findings" not in found  # what is said of a case that is refused
     assert "lasersph.solvers.melt_pool.flow" in modules_of("melt-pool")
     assert "lasersph.solvers.conduction.implicit" in modules_of("melt-pool")
 
