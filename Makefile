@@ -27,7 +27,7 @@ test: $(VENV)/.test
 check: $(VENV)/.check
 	$(VENV)/bin/ruff format --check .
 	$(VENV)/bin/ruff check .
-	$(VENV)/bin/pyright
+	$(VENV)/bin/pyright --pythonpath $(VENV)/bin/python
 	$(VENV)/bin/python -m pytest $(WORKERS) $(PYTEST_ARGS)
 
 docs: $(VENV)/.docs
