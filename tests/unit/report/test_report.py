@@ -351,15 +351,6 @@ def test_melt_thinner_than_half_a_cell_is_warned_of():
     assert found_warnings(summary | {"melt": melt | {"depth_half_max_m": 1e-8}}) == []
 
 
-def test_what_numerics_add_is_judged_by_the_energy_that_moved():
-    # A warm and a cold half of a wave, whose heat went out and came back: nothing is left of it.
-    energy = {f"{name}_J": 0.0 for name in ("absorbed", "lost", "stored")}
-    energy |= {"imbalance_relative": 0.0, "newton_residual_max_J": 2e-12, "moved_J": 4e-4}
-    assert found_warnings({"energy": energy}) == []
-    energy["moved_J"] = 2e-9
-    assert "is 0.1 % of the energy moved" in found_warnings({"energy": energy})[0]
-
-
 def test_notes(folder):
     """Rounded spacing is noted, melt left at the end is warned of."""
     summary = open_run(folder).summary
