@@ -89,7 +89,7 @@ BAD_CASES = {
     "scan without a rate": (FLUENCE, FLUENCE + '\nspot = { diameter = "50 um", definition = "fwhm", scan_speed = "1 m/s" }', ':7: laser.spot.scan_speed: needs the time between pulses; write e.g. repetition_rate = "10 kHz" in [laser.pulse]'),
     "period that does not fit": (BEAM, BEAM.replace("}", ', wavelength = "355 nm", angle = "5 deg" }'), ":8: laser.beam.period: 5 um does not fit the wavelength and the angle, which give 4.06929 um; leave it out"),
     "period below half a wavelength": (BEAM, BEAM.replace("5 um", "100 nm").replace("}", ', wavelength = "355 nm" }'), ":8: laser.beam.period: 100 nm is no period that 2 beams of 355 nm can make; give one above 177.5 nm"),
-    "diameter of a top hat": (BEAM, 'beam = { kind = "top-hat", diameter = "9 um" }', ":8: laser.beam.diameter: unknown key; write half of it as radius, or as radius_1e2 of a super-gaussian"),
+    "diameter of a top hat": (BEAM, 'beam = { kind = "top-hat", diameter = "9 um" }', ":8: laser.beam.diameter: unknown key; write half of it as radius, of a super-gaussian as radius_1e2; a pattern has laser.spot"),
     "width of a ring": (BEAM, 'beam = { kind = "ring", radius = "9 um", inner_radius = "4 um", width = "5 um" }', ":8: laser.beam.width: unknown key; write its radius, and inner_radius of a ring, each half of a diameter"),
     "five beams": (BEAM, BEAM.replace("}", ", beams = 5 }"), ":8: laser.beam.beams: must be 2 or 3 or 4, got 5"),
     "shares of one beam more": (BEAM, BEAM.replace("}", ", energy_shares = [0.2, 0.3, 0.5] }"), ":8: laser.beam.energy_shares: has 3 values for 2 beams; give each one"),

@@ -6,7 +6,7 @@ behind a semicolon is what to do where none of them fits. Words may name their t
 
 from lasersph.materials.other_words import MATERIAL_WORDS, SLOPES
 
-HALF = "; write half of it as radius, or as radius_1e2 of a super-gaussian"
+HALF = "; write half of it as radius, of a super-gaussian as radius_1e2; a pattern has laser.spot"
 SLOPE = '; write surface_tension_slope = "-0.4 mN/(m K)" in [material]'
 
 OTHER_WORDS = MATERIAL_WORDS | {
@@ -34,10 +34,11 @@ OTHER_WORDS = MATERIAL_WORDS | {
     "radius": "laser.beam.radius_1e2 laser.beam.radius",
     "waist": "laser.beam.radius_1e2 laser.beam.radius",
     "w0": "laser.beam.radius_1e2 laser.beam.radius",
-    "spot_diameter": "laser.beam.diameter_1e2" + HALF,
-    "beam_diameter": "laser.beam.diameter_1e2" + HALF,
-    "spot_size": "laser.beam.diameter_1e2" + HALF,
-    "diameter": "laser.beam.diameter_1e2" + HALF,
+    "spot_diameter": "laser.beam.diameter_1e2",
+    "beam_diameter": "laser.beam.diameter_1e2",
+    "spot_size": "laser.beam.diameter_1e2",
+    "beam.diameter": "laser.beam.diameter_1e2" + HALF,
+    "diameter": "laser.beam.diameter_1e2",
     "beam.width": "; write its radius, and inner_radius of a ring, each half of a diameter",
     "profile": "laser.beam.kind",
     "speed": "laser.path.velocity",
