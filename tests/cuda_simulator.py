@@ -54,7 +54,7 @@ def _type_of(argument):
 
 def _run(manager, grid_point, *arguments):
     """Run one group of threads."""
-    if "syncthreads" in manager._f.__code__.co_names:
+    if {"syncthreads", "other_lane"} & set(manager._f.__code__.co_names):
         _together(manager, grid_point, arguments)
     else:
         _in_turn(manager, grid_point, arguments)

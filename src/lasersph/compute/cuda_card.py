@@ -12,6 +12,7 @@ the backend.
 from __future__ import annotations
 
 import ctypes
+from array import array
 from functools import cache
 from typing import Any
 
@@ -24,6 +25,8 @@ from lasersph.compute.cuda_device import THREADS
 
 _STREAM = 0
 """The default stream."""
+_WORDS = {size: np.dtype(f"u{size}") for size in (1, 2, 4, 8)}
+"""Types of the same bits as numbers of so many bytes."""
 
 
 class Piece:
@@ -130,12 +133,13 @@ class Call:
                 words += one.words
                 kinds.append(one.kind)
             else:
-                words.append(int(one.view(f"u{one.itemsize}")))
+                words.append(int(one.view(_WORDS[one.itemsize])))
                 kinds.append((one.dtype, 0))
-        self._words = np.array(words, np.uint64)
-        first = self._words.ctypes.data
-        self._pointers = np.arange(first, first + 8 * len(words), 8, np.uint64)
-        self._address = self._pointers.ctypes.data
+        memory = array("Q", words)
+        first = memory.buffer_info()[0]
+        self._pointers = array("Q", range(first, first + 8 * len(words), 8))
+        self._address = self._pointers.buffer_info()[0]
+        self._words = np.frombuffer(memory, np.uint64)
         self._function = _function(kernel, tuple(kinds))
         self._arguments = arguments
 

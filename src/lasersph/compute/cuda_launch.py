@@ -1,8 +1,9 @@
-"""Loops on the graphics card: their text, a thread per row that takes every so-many-th, and start.
+"""Loops on the graphics card: their text, threads that take every so-many-th row, and start.
 
-The lines of a row are those of the processor's loop. What rows reduce is combined in a thread, then
-in its group by halves, always in the same order, and the groups' values go to the host. No
-rearrangement of sums is allowed to the compiler beyond fused products, so that NaN stays NaN.
+The lines of a row are those of the processor's loop. A row of pairs is shared by `LANES` threads,
+whose sums are added in a tree. What rows reduce is combined in a thread, then in its group by
+halves, always in the same order, and the groups' values go to the host. No rearrangement of sums is
+allowed to the compiler beyond fused products, so that NaN stays NaN.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ import numpy as np
 from lasersph.compute import cache as folder
 from lasersph.compute.cuda_array import CudaArray
 from lasersph.compute.cuda_device import GROUPS, SUMMING_GROUPS, THREADS, groups
+from lasersph.compute.cuda_lanes import LANES
 from lasersph.compute.cuda_memory import Call, Room
 from lasersph.compute.generate import LoopText
 from lasersph.compute.launch import EMPTY, Bound, Launcher
@@ -28,9 +30,12 @@ import math
 import numpy as np
 from numba import cuda
 
+from lasersph.compute.cuda_lanes import other_lane
+
 real = np.{precision}
 ZERO = np.uint64(0)
 ONE = np.uint64(1)
+LANES = np.uint64(<lanes>)
 
 
 @cuda.jit(device=True)
@@ -43,7 +48,7 @@ def ceil(value):
     return real(math.ceil(value))
 
 
-'''
+'''.replace("<lanes>", str(LANES))
 INNER = "@cuda.jit(device=True)\n"
 REDUCE = {
     "sum": "{0} += {1}",
@@ -88,8 +93,34 @@ class CudaLoopText(LoopText):
 
     def pair_values(self, inner: list[str], outputs: Any) -> list[str]:
         """Lines that store a value for each pair of a row."""
-        pairs = "for p in range(row_start[i], row_start[i + ONE]):"
-        return [pairs, *("    " + line for line in [*inner, *outputs("p")])]
+        return self._pairs([*inner, *outputs("p")])
+
+    def pair_sums(self, inner: list[str]) -> list[str]:
+        """Lines that go through the pairs of a row and combine what its threads have."""
+        lines = self._pairs(inner)
+        distance = LANES // 2
+        while distance:
+            for name, how in self.sums:
+                other = f"other_lane({name}, {distance}, LANES)"
+                lines += [f"other = {other}", REDUCE[how].format(name, "other")]
+            distance //= 2
+        return lines
+
+    def end_of_row(self, lines: list[str]) -> list[str]:
+        """Lines that store and reduce, by one thread of a row of pairs."""
+        if not lines or not self._is_shared:
+            return lines
+        return ["if lane == ZERO:", *("    " + line for line in lines)]
+
+    def _pairs(self, lines: list[str]) -> list[str]:
+        """Lines that a thread runs for its share of the pairs of a row."""
+        pairs = "for p in range(row_start[i] + lane, row_start[i + ONE], LANES):"
+        return [pairs, *("    " + line for line in lines)]
+
+    @property
+    def _is_shared(self) -> bool:
+        """Whether several threads share a row."""
+        return self.loop.shape != "pointwise"
 
     def parameters(self) -> list[str]:
         """Names of all that the kernel takes, in order: constants one by one."""
@@ -100,8 +131,10 @@ class CudaLoopText(LoopText):
 
     def compiled(self, starts: list[str], lines: list[str], ends: list[str]) -> str:
         """Text of the kernel: before, for each and after the rows of a thread."""
-        # each thread goes through every so-many-th row
+        # each thread, or all that share a row, go through every so-many-th row
         body = [*starts, "step = np.uint64(cuda.gridsize(1))", "k = np.uint64(cuda.grid(1))"]
+        if self._is_shared:
+            body += ["lane = k % LANES", "step //= LANES", "k //= LANES"]
         body += ["while k < count:", *("    " + line for line in [*lines, "k += step"])]
         # combine the threads of a group by halves, in shared memory
         if ends:
@@ -160,6 +193,8 @@ class CudaLaunch:
         compiled = bound.compiled
         self.reductions, self.places = compiled.reductions, compiled.places
         self._rows, self._bound, self._held = bound.rows, bound, None
+        # rows of a list of pairs have row pointers and neighbors
+        self._lanes = LANES if len(bound.lists) > 1 else 1
         self._outs = cast("list[CudaArray]", [out for out in bound.outs if out is not None])
         # components in the order of the kernel's parameters, then numbers, then what groups reduce
         given = [*bound.lists, *bound.fields, *bound.outs, *bound.tables]
@@ -220,7 +255,8 @@ class CudaLaunch:
         if self._rows == 0:
             self.results = tuple([EMPTY[how] for how in self.reductions])
             return
-        number = groups(self._rows, SUMMING_GROUPS if self.reductions else GROUPS)
+        most = SUMMING_GROUPS if self.reductions else GROUPS
+        number = groups(self._lanes * self._rows, most)
         self._call.start(number)
         # copies that observers hold are out of date now
         for out in self._outs:

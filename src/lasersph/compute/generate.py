@@ -85,6 +85,7 @@ class LoopText:
     Attributes:
         HEAD: first lines of the file. INNER: lines before a function that the loop calls.
         REDUCE: how a value enters a reduction.
+        sums: names of what the pairs of a row are combined to, and how.
     """
 
     HEAD = _HEAD
@@ -94,6 +95,7 @@ class LoopText:
     def __init__(self, loop: Loop) -> None:
         self.loop = loop
         self.unit = SourceUnit()
+        self.sums: list[tuple[str, str]] = []
         self.arrays: dict[str, Any] = {}
         self.tables: dict[str, Any] = {}
         self.reals: dict[str, tuple[str, int]] = {}
@@ -128,13 +130,21 @@ class LoopText:
         if loop.shape == "pair_values":
             lines += self.pair_values(inner, outputs)
         elif pairs:
-            lines.append("for p in range(row_start[i], row_start[i + ONE]):")
-            lines += ["    " + line for line in inner]
-        lines += after + store + reduces
+            lines += self.pair_sums(inner)
+        lines += self.end_of_row([*after, *store, *reduces])
         head = self.HEAD.format(precision=loop.precision, block=loop.block, listed=loop.listed)
         parts = [head, *(f"{self.INNER}{text}\n" for text in self.unit.texts)]
         parts.append(self.compiled(starts, lines, ends))
         return "\n".join(parts)
+
+    def pair_sums(self, inner: list[str]) -> list[str]:
+        """Lines that go through the pairs of a row."""
+        pairs = "for p in range(row_start[i], row_start[i + ONE]):"
+        return [pairs, *("    " + line for line in inner)]
+
+    def end_of_row(self, lines: list[str]) -> list[str]:
+        """Lines that store and reduce what a row has."""
+        return lines
 
     def pair_values(self, inner: list[str], outputs: Any) -> list[str]:
         """Lines that store a value for each pair of a row.
@@ -170,6 +180,7 @@ class LoopText:
         for value, total, kind, how in zip(values, sums, items, combine, strict=True):
             pairs = zip(_names(kind, total), _names(kind, value), strict=True)
             for s, y in pairs:
+                self.sums.append((s, how))
                 rows.append(f"{s} = {START[how]}")
                 if how == "sum":
                     inner.append(f"{s} += real({y})")

@@ -16,11 +16,12 @@ from __future__ import annotations
 
 from functools import cached_property
 from math import comb, pi, prod, sqrt
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from lasersph.surface.column_axis import RING, ColumnAxis
 from lasersph.surface.height_field import (
     FIRST,
     SECOND,
@@ -46,66 +47,11 @@ Numbers = NDArray[np.int64]
 Parity = tuple[float, float]
 EVEN_PARITIES: Parity = (EVEN_PARITY, EVEN_PARITY)
 """Parity of heights and temperatures. Exact: mirror images of scalars."""
-RING = 2
-"""Columns around a pool to which its field goes on. Geometry: derivatives of fourth order reach two
-columns far, and so do blocks of differences of the fourth order around a column."""
 BEYOND_SIDE = np.array([-1.0, 9.0, 9.0, -1.0]) / 16.0
 """Value at a side from the two columns at either side of it, of the cubic through them."""
 RING_WEIGHT = 1e-9
 """Weight of a value 0 in the ring. Rounding: in an arm of one column across differences and pins
 leave the cubic y (y^2 - 1/4) free there."""
-
-
-class Axis:
-    """Columns along one axis, and what is seen beyond its ends.
-
-    Attributes:
-        low: first place that is known; places count from it. column: column that is seen at each
-            place, -1 for none; beyond walls they go on by `RING`. is_mirrored: whether it is an
-            image. is_inside: whether the place itself lies in the domain.
-    """
-
-    def __init__(self, count: int, ends: tuple[str, str]) -> None:
-        margin = RING + ORDER
-        self.low, self.period = -margin, count if ends[0] == "periodic" else 0
-        place = np.arange(-margin, count + margin)
-        self.is_inside = (place >= 0) & (place < count)
-        self.column, self.is_mirrored = place.copy(), np.zeros(place.size, bool)
-        for is_beyond, end, image in (
-            (place < 0, ends[0], -1 - place),
-            (place >= count, ends[1], 2 * count - 1 - place),
-        ):
-            if end == "periodic":
-                self.column[is_beyond] %= count
-            elif end == "mirror":
-                self.column[is_beyond] = image[is_beyond]
-                self.is_mirrored |= is_beyond
-            else:
-                # the ring around a pool that ends at a wall lies beyond it
-                depth = np.where(place < 0, -place, place - count + 1)
-                self.column[is_beyond & (depth > RING)] = -RING - 1
-                self.is_inside |= is_beyond & (depth <= RING)
-
-    def seen(self, place: Numbers) -> Numbers:
-        """Column at places, less than -RING for none."""
-        return self.column[place - self.low]
-
-    def sign(self, place: Numbers, parity: float) -> Array:
-        """Sign with which a field of a parity is seen at places."""
-        return np.where(self.is_mirrored[place - self.low], parity, 1.0)
-
-    def blocks(self, columns: Numbers, order: int) -> tuple[Numbers, Array]:
-        """Places (blocks, order + 1) of the differences of an order around columns, and the share
-        (blocks,) with which each counts: planes of symmetry leave half of those across them."""
-        first, last = int(columns.min()) - RING - order, int(columns.max()) + RING
-        low, high = self.low, self.low + self.column.size - 1
-        begin = np.arange(max(first, low), min(last, high - order) + 1)
-        if self.period:
-            begin = np.arange(self.period)
-        place = begin[:, None] + np.arange(order + 1)
-        inside = self.is_inside[place - self.low] if not self.period else np.ones(place.shape, bool)
-        place, inside = place[inside.any(axis=1)], inside[inside.any(axis=1)]
-        return place, np.where(inside.all(axis=1), 1.0, sqrt(0.5))
 
 
 class PoolField:
@@ -124,7 +70,9 @@ class PoolField:
     def __init__(self, whole: HeightField, columns: Numbers) -> None:
         self.whole, self.columns, self.count = whole, columns, columns.size
         self.widths, self.cutoff = whole.widths, whole.cutoff
-        self.axes = tuple(Axis(n, ends) for n, ends in zip(whole.shape, whole.ends, strict=True))
+        self.axes = tuple(
+            ColumnAxis(n, ends) for n, ends in zip(whole.shape, whole.ends, strict=True)
+        )
         self._place = np.array(np.unravel_index(columns, whole.shape))
         self.height = whole.height.ravel()[columns]
 
@@ -300,21 +248,18 @@ class PoolField:
                 found[is_wall] = heights[other[is_wall]]
         return found
 
-    def _rows(self, x: Numbers, y: Numbers, values: Array, parity: Parity) -> csr_matrix:
-        """Matrix with a row of values (rows, k) at places (rows, k) along x and y for each row all
-        of whose places are known."""
-        from scipy.sparse import csr_matrix  # few runs have a grid of columns
-
+    def _rows(self, x: Numbers, y: Numbers, values: Array) -> SignedRows:
+        """Rows of values (rows, k) at places (rows, k) along x and y, those all of whose places are
+        known."""
         seen = self._seen(x, y)
         number = self._number[seen[..., 0], seen[..., 1]]
-        number = np.where(np.all(seen >= 0, axis=-1), number, -1)
-        signs = self.axes[0].sign(x, parity[0]) * self.axes[1].sign(y, parity[1])
-        is_known = np.all(number >= 0, axis=1)
-        number, values = number[is_known], (signs * values)[is_known]
-        row = np.repeat(np.arange(len(number)), number.shape[1])
-        return csr_matrix((values.ravel(), (row, number.ravel())), shape=(len(number), self.size))
+        is_known = np.all((number >= 0) & np.all(seen >= 0, axis=-1), axis=1)
+        mirrored = [
+            axis.mirrored(place[is_known]) for axis, place in zip(self.axes, (x, y), strict=True)
+        ]
+        return SignedRows(number[is_known], values[is_known], np.array(mirrored))
 
-    def _differences(self, orders: tuple[int, ...], parity: Parity) -> csr_matrix:
+    def _differences(self, orders: tuple[int, ...]) -> SignedRows:
         """Differences of orders along x and y, scaled so that waves of lambda_c keep half."""
         scale = sqrt(comb(sum(orders), orders[0])) * prod(
             (self.cutoff / (2.0 * pi * width)) ** one
@@ -329,7 +274,19 @@ class PoolField:
         place_x = np.broadcast_to(x[:, None, :, None], shape).reshape(-1, weights.size)
         place_y = np.broadcast_to(y[None, :, None, :], shape).reshape(-1, weights.size)
         share = np.multiply.outer(share_x, share_y).reshape(-1, 1)
-        return self._rows(place_x, place_y, scale * share * weights.ravel(), parity)
+        return self._rows(place_x, place_y, scale * share * weights.ravel())
+
+    @cached_property
+    def _all_differences(self) -> list[SignedRows]:
+        """Differences of the functional, of all shares of its order along x and y."""
+        order = PINNED_ORDER if self.rim.size else ORDER
+        return [self._differences((along_x, order - along_x)) for along_x in range(order + 1)]
+
+    @cached_property
+    def _at_rim(self) -> SignedRows:
+        """Values at the sides of the rim."""
+        _, _, x, y = self._pins
+        return self._rows(x, y, np.broadcast_to(BEYOND_SIDE, x.shape))
 
     def _solve(self, values: Array, parity: Parity, pins: Array | None) -> Array:
         """F of values with heights (sides,) at the rim; its factors are made at the first call."""
@@ -351,25 +308,51 @@ class PoolField:
         self, parity: Parity, *, passes_pins: bool
     ) -> tuple[csr_matrix, csr_matrix, SuperLU]:
         """Matrix of the normal equations, that of the values at the rim, and factors."""
-        from scipy.sparse import csr_matrix, diags
+        from scipy.sparse import diags  # few runs have a grid of columns
         from scipy.sparse.linalg import splu
 
         weight = np.full(self.size, RING_WEIGHT)
         weight[: self.count] = 1.0
-        A = diags(weight).tocsr()
-        order = PINNED_ORDER if self.rim.size else ORDER
-        for along_x in range(order + 1):
-            D = self._differences((along_x, order - along_x), parity)
-            A = A + D.T @ D
-        _, _, x, y = self._pins
-        P = self._rows(x, y, np.broadcast_to(BEYOND_SIDE, x.shape), parity)
+        D = signed_matrix(self._all_differences, parity, self.size)
+        P = signed_matrix([self._at_rim], parity, self.size)
+        A = diags(weight).tocsr() + D.T @ D
         if passes_pins:
             A = A + PIN_WEIGHT * (P.T @ P)
         options = {"SymmetricMode": True}
         factors = splu(
             A.tocsc(), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options=options
         )
-        return csr_matrix(A), P, factors
+        return A, P, factors
+
+
+class SignedRows(NamedTuple):
+    """Rows of a matrix, the same for fields of every parity but for signs.
+
+    Attributes:
+        number, values: (rows, k) of the entries. mirrored: (2, rows, k) whether the place lies
+            across a plane of symmetry, along each axis.
+    """
+
+    number: Numbers
+    values: Array
+    mirrored: NDArray[np.bool_]
+
+
+def signed_matrix(given: list[SignedRows], parity: Parity, size: int) -> csr_matrix:
+    """Matrix (all rows, size) for fields of a parity; places that meet in one entry are added."""
+    from scipy.sparse import csr_matrix
+
+    values = [
+        np.where(one.mirrored[0], parity[0], 1.0)
+        * np.where(one.mirrored[1], parity[1], 1.0)
+        * one.values
+        for one in given
+    ]
+    lengths = np.concatenate([np.full(len(one.number), one.number.shape[1]) for one in given])
+    start = np.concatenate([[0], np.cumsum(lengths)])
+    number = np.concatenate([one.number.ravel() for one in given])
+    entries = np.concatenate([one.ravel() for one in values])
+    return csr_matrix((entries, number, start), shape=(len(lengths), size))
 
 
 def binomial(order: int) -> Array:
