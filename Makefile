@@ -5,11 +5,12 @@ VENV   ?= .venv
 PIP    := $(VENV)/bin/python -m pip --disable-pip-version-check
 OUT    ?= runs/texture-steel
 
-.PHONY: run test check docs wheel release clean help
+.PHONY: run test slow check docs wheel release clean help
 
 help:
 	@echo "make run    compute the texture of a pulse on steel into $(OUT) and write its figures and report"
 	@echo "make test   run the tests          make check  format, lint, types, tests"
+	@echo "make slow   run the long tests that make test leaves out"
 	@echo "make docs   build docs/_build/html make wheel  build dist/lasersph-*.whl"
 	@echo "make release  checks, wheel and source archive tried in an empty environment, notes: dist/"
 
@@ -19,10 +20,13 @@ run: $(VENV)/.run
 	@echo "Open $(OUT)/report.html in a browser. Start anew: rm -r $(OUT)"
 
 test: $(VENV)/.test
-	@echo "Tests take half an hour with 2 cores, as these are."
+	@echo "Tests take a quarter of an hour with 2 cores, as these are."
 	@command -v chromium chromium-browser google-chrome google-chrome-stable >/dev/null || echo \
 	  "No Chromium: the tests of the page are skipped. On Debian: apt-get install chromium" >&2
 	$(VENV)/bin/python -m pytest $(WORKERS) $(PYTEST_ARGS)
+
+slow: $(VENV)/.test
+	$(VENV)/bin/python -m pytest $(WORKERS) -m slow $(PYTEST_ARGS)
 
 check: $(VENV)/.check
 	$(VENV)/bin/ruff format --check .
@@ -40,7 +44,7 @@ wheel: $(VENV)/.test
 	$(VENV)/bin/python -m build --wheel
 
 # All that a version needs before it is tagged: see "Release" in CONTRIBUTING.md.
-release: check
+release: check slow
 	@test -z "$$(git status --porcelain)" || { echo "commit first: the tree has changes" >&2; exit 1; }
 	@mkdir -p dist && $(VENV)/bin/python docs/release_notes.py > dist/notes.md
 	$(VENV)/bin/python -m pytest -m release

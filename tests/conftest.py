@@ -15,7 +15,7 @@ FOLDER, STARTED, HELD = pytest.StashKey(), pytest.StashKey(), pytest.StashKey()
 SIMULATED = "tests/unit/compute/test_cuda_simulated.py::"
 SHORT_FORM = "tests/validation/test_runs.py::test_short_form["
 """Tests that wait for a side process."""
-ONLY_ASKED = ("validate", "release")
+ONLY_ASKED = ("validate", "release", "slow")
 """Marks of tests that run only where -m names the mark: `pytest -m validate`."""
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # as on the command line

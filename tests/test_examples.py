@@ -88,6 +88,7 @@ def test_texture_of_a_spot(metal, fluence, capsys):
     assert re.search(r"^runs +6$", capsys.readouterr().out, flags=re.MULTILINE)
 
 
+@pytest.mark.slow
 def test_texture_from_real_cells(tmp_path, capsys):
     """Six coarse cells make the spot; its own profile has the fluence of the case."""
     case, out = ROOT / "examples" / "texture-of-a-spot" / "steel.toml", tmp_path / "spot"
@@ -108,6 +109,7 @@ def test_texture_from_real_cells(tmp_path, capsys):
     assert "deepest point" in capsys.readouterr().out
 
 
+@pytest.mark.slow
 def test_notebook_runs(tmp_path, monkeypatch):
     """The cells of "Read results in Python" run one after the other, with a coarser run."""
     matplotlib.use("Agg")

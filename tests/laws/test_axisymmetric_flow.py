@@ -101,6 +101,7 @@ def test_heat_and_axis_of_a_pool():
     assert heat - start == pytest.approx(absorbed, abs=1e-12 * heat)
 
 
+@pytest.mark.slow
 def test_ends_and_steps(tmp_path):
     """Half the step changes melt and depth by less than 0.5 % (the speed, which a row of 50 nm
     hardly resolves, in the validation `spot-pool`); a run that is stopped and resumed, and one of

@@ -199,6 +199,7 @@ def test_vapor_takes_mass_and_heat():
     assert end.heat - start.heat == pytest.approx(change, abs=1e-9 * start.heat)
 
 
+@pytest.mark.slow
 def test_steps_ends_and_threads(tmp_path):
     """Half the step changes the hollow, while it grows, by less than 0.5 % (0.3 %; the relief that
     `spot-steel` leaves by 0.1 %); a run that is stopped and resumed, and one of two threads, leave
@@ -216,6 +217,7 @@ def test_steps_ends_and_threads(tmp_path):
     assert center < -5e-9
 
 
+@pytest.mark.slow
 def test_second_pulse_on_a_relief():
     """A pause that is left out lays the particles out below the relief, which stays."""
     pulse = {"kind": "gaussian", "fwhm": 1e-8, "center": 2e-8, "count": 2, "period": 1e-3}

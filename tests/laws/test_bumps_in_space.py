@@ -4,6 +4,7 @@ A quarter of a square is computed, 5 radii wide or more, so that its other bumps
 """
 
 import numpy as np
+import pytest
 from surface_films import go
 
 from lasersph import compute
@@ -42,6 +43,7 @@ def deviation(solver, wanted):
     return found.max(), found[0].max(), np.diag(found).max()
 
 
+@pytest.mark.slow
 def test_driven_by_a_bump_of_temperature():
     """10 ns of 10 K: within 3 % of the largest height everywhere with five rows; 2.8 % came out,
     in the middle, as in a square of 6.7 um, and 2.5 % after 20 ns; 4.8 % with four rows, 1.2 % with

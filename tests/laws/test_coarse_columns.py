@@ -100,6 +100,7 @@ def test_second_order_beside_coarse_columns(tmp_path):
     assert np.log(errors[0] / errors[1]) / np.log(2.0) > 1.8
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["section", "flat", "moving"])
 def test_the_same_pool(name, tmp_path):
     """What flows does not see the columns beside it: 1e-6 of volume, speed, temperature."""

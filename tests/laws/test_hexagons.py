@@ -79,6 +79,7 @@ def test_both_dots_of_the_rectangle_are_the_same(hexagons):
     assert hexagons.summary["energy"]["imbalance_relative"] < 1e-5
 
 
+@pytest.mark.slow
 def test_where_nothing_flows_the_dots_are_those_of_heat(tmp_path):
     """Area, depth and volume of the melt within 1 % of conduction alone: 1e-6 came out."""
     case = load_case("texture-hexagons-steel", (*COARSE, *AT_REST))

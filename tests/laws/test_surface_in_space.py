@@ -66,6 +66,7 @@ MISTAKES = {
 """When each is seen, and what is put in place of what."""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", MISTAKES)
 def test_mistakes_are_seen(name, monkeypatch, film):
     """Each term dropped or turned around changes the height by more than 3 % of the largest."""

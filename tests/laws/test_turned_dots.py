@@ -68,6 +68,7 @@ def amplitude(line, period, by=(0.0, 0.0)):
     return 4.0 * np.mean(line.height * np.cos(x) * np.cos(y))
 
 
+@pytest.mark.slow
 def test_turned_by_forty_five_degrees():
     """The same height in the middle as the film that is exact, and as the dots that are not turned,
     within 1 % of the largest; the same along x and along y."""
@@ -112,6 +113,7 @@ def test_shifted_by_whole_columns_and_by_half_of_one():
     )
 
 
+@pytest.mark.slow
 def test_disordered_particles_over_a_whole_period():
     """Particles out of their places by up to a tenth of a spacing have no symmetry: the amplitude
     is that of the quarter within 1 %, and its heights are within 3 % rms, where the spacing costs

@@ -112,6 +112,7 @@ def test_source_archive_works(tmp_path):
     works(environment_with(archive, tmp_path), tmp_path)
 
 
+@pytest.mark.slow
 @pytest.mark.packaging
 def test_wheel_works_with_oldest_dependencies(wheel, tmp_path):
     """Installed from the package index, every direct dependency at its lower bound."""

@@ -116,6 +116,7 @@ class Killer:
         self.cluster.start_workers()  # in place of those that lost their nanny
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kills", [["worker", "nanny", "run"] * 2, ["scheduler"] * 2])
 def test_killed(cluster, plan, undisturbed, tmp_path, kills):
     """A Dask worker, its nanny, the process of a run and the scheduler die twice each by SIGKILL,
@@ -129,6 +130,7 @@ def test_killed(cluster, plan, undisturbed, tmp_path, kills):
     assert_same_and_clean(tmp_path, undisturbed, killer.run_processes)
 
 
+@pytest.mark.slow
 def test_killed_driver(cluster, undisturbed, tmp_path):
     """`lasersph sweep` dies twice: runs stop with a checkpoint, the same command again goes on."""
     cluster.start_workers()

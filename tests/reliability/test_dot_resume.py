@@ -1,6 +1,7 @@
 """A dot whose melt flows in three dimensions, killed while it does and resumed from its folder."""
 
 import numpy as np
+import pytest
 from reliability_runs import assert_same, kill_after, small_case
 
 from lasersph.output.checkpoint import candidates, load
@@ -27,6 +28,7 @@ DOT = (
 """A quarter of a dot of 13 columns along each axis, some 1500 particles."""
 
 
+@pytest.mark.slow
 def test_dot_killed_while_its_surface_moves(tmp_path):
     """Killed at step 105 of 157, resumed with two threads: the same bits as one run."""
     case, folder, whole = small_case(*DOT), tmp_path / "run", tmp_path / "whole"

@@ -126,6 +126,7 @@ def test_steady_box(tmp_path):
     assert_same(folders[1], folders[0])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("geometry", ["planar", "axisymmetric"])
 def test_pool_beside_coarse_columns(geometry, tmp_path):
     """Stopped while the pool flows and resumed on two threads: the same bits as on one."""

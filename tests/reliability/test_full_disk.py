@@ -58,6 +58,7 @@ def test_unwritable_folder(tmp_path):
     assert blocked.read_text() == "mine"
 
 
+@pytest.mark.slow
 def test_sweep_on_a_full_disk(tmp_path, file_size_limit):
     """Its runs fail with a line each; the same call with room again ends with the same table."""
     plan = build_plan("dlip-steel", {"laser.fluence": ["0.5 J/cm^2", "0.6 J/cm^2"]}, set=SETTINGS)

@@ -70,6 +70,7 @@ def test_array_script(folder, capsys):
     assert "all runs are complete" in capsys.readouterr().out
 
 
+@pytest.mark.slow
 def test_dask_script(folder):
     """A scheduler with TLS and two workers make the runs; they end, and their key is gone."""
     pytest.importorskip("distributed")

@@ -17,7 +17,17 @@ NOT_MET: dict[str, set[str]] = {
 """Kinds of rows that shortened forms do not meet, by validation; the page says why."""
 
 
-@pytest.mark.parametrize("name", names())
+LONG = {"two-temperature", "taylor-green", "dots-film", "pulsed-heating", "moving-recession",
+        "gaussian-pulse", "measured-spots", "moving-film"}  # fmt: skip
+"""Validations that take a minute or more when they are shortened, too."""
+
+
+def validations():
+    """Their names; those that take long are asked for."""
+    return [pytest.param(name, marks=pytest.mark.slow if name in LONG else ()) for name in names()]
+
+
+@pytest.mark.parametrize("name", validations())
 def test_short_form(name, short_validations):
     """Every validation, shortened: all judged numbers lie within their bands."""
     report = short_validations.report(name)

@@ -101,6 +101,7 @@ def test_list_of_a_case_is_edited_with_the_keyboard(open_page, address):
     expect(page.get_by_label("probes depth")).to_have_count(2)
 
 
+@pytest.mark.slow
 def test_own_case_is_read_and_run_again_with_changes(open_page, serve, tmp_path):
     """A text with a mistake says its line; the case runs, and again with another fluence, which the
     page shows in the unit of the case."""

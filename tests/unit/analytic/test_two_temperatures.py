@@ -42,6 +42,7 @@ def test_two_ways_of_inversion_agree(depth):
         assert other == pytest.approx(one, rel=1e-6)
 
 
+@pytest.mark.slow
 def test_energy_of_the_half_space():
     """The integral of both heats over depth is what was absorbed."""
     depth = np.linspace(0.0, 6e-6, 3001)

@@ -65,6 +65,7 @@ def test_bytes_of_a_list():
     assert least.operations == (2 + 3 + 2 + 1 + 1) * pairs
 
 
+@pytest.mark.slow
 def test_memory():
     """No loop takes more than is said before it starts, also while its list is made."""
     backend, count = CountingBackend(1), 60000

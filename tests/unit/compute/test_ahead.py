@@ -71,6 +71,7 @@ def test_lists_hold_each_loop_once(tmp_path):
     assert ahead.read_lists(tmp_path / "none") == {}
 
 
+@pytest.mark.slow
 def test_known_loops_can_be_written():
     """Every loop of the shipped lists has a text: their functions exist and take what is listed."""
     lists = ahead.read_lists(FILE)

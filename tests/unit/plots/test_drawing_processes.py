@@ -25,6 +25,7 @@ def folder(tmp_path_factory):
     return synthetic_run.make_run(tmp_path_factory.mktemp("drawn") / "run", dimension=2)
 
 
+@pytest.mark.slow
 def test_the_same_files(folder):
     """Two processes write what one writes, byte for byte, and name it in the same order."""
     alone = lasersph.draw_run(folder)
