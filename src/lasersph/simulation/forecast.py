@@ -10,14 +10,11 @@ from lasersph.simulation.case_forecast import Forecast
 from lasersph.simulation.case_warnings import absorption_length, penetration_depth, run_warnings
 from lasersph.simulation.heating import heating_forecast
 from lasersph.simulation.progress import Span
-from lasersph.simulation.recipes import Recipe, StepForecast, recipe_of
+from lasersph.simulation.recipes import Recipe, StepCost, StepForecast, recipe_of
 from lasersph.solvers.step_control import binding_limit
 
 PAIRS_PER_SECOND = 2.0e8
 """Pairs of one thread [1/s]. Forecast: the expected time only."""
-SECONDS_PER_STEP = 3e-3
-"""Besides the products [s]: calls of loops, observers, files. Forecast:
-`benchmarks/small_steps.py`."""
 
 
 def forecast(
@@ -79,7 +76,9 @@ def spans_of(recipe: Recipe[Any, Any], steps: StepForecast, threads: int) -> tup
     """Expected cost of each stage of a run on some threads."""
     # Seconds of one product of the matrix of all pairs with a vector.
     product = active_pairs(recipe) / PAIRS_PER_SECOND / max(1, threads)
-    return tuple(
-        Span(stage.name, stage.end, stage.steps * (stage.products * product + SECONDS_PER_STEP))
-        for stage in steps.stages
-    )
+
+    def seconds(cost: StepCost) -> float:
+        return cost.products * product + cost.seconds
+
+    stages = steps.stages
+    return tuple(Span(one.name, one.end, one.steps * seconds(one.cost)) for one in stages)

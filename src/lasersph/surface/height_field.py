@@ -33,7 +33,6 @@ from copy import copy
 from functools import cached_property, partial
 from itertools import combinations
 from math import pi, prod, sqrt
-from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -351,29 +350,29 @@ def window_sum(values: Array, weights: Array) -> Array:
 
 def extended(values: Array, low: End, high: End, parity: float) -> Array:
     """Values of a line with two more at either end."""
-    n = values.shape[0]
-    left = {
-        "mirror": parity * values[1::-1],
-        "periodic": values[-2:],
-        "pinned": _extrapolate(values[:5])[::-1],
-    }[low]
-    right = {
-        "mirror": parity * values[: n - 3 : -1],
-        "periodic": values[:2],
-        "pinned": _extrapolate(values[: n - 6 : -1]),
-    }[high]
-    return np.concatenate([left, values, right])
+    before, after = _continued(values, low, parity), _continued(values[::-1], high, parity)
+    return np.concatenate([before[::-1], values, after])
+
+
+def _continued(values: Array, end: End, parity: float) -> Array:
+    """The next two values beyond the first of a line."""
+    if end == "mirror":
+        return parity * values[:2]
+    return values[:-3:-1] if end == "periodic" else _extrapolate(values[:5])
 
 
 def binomial_sum(values: Array, low: End, high: End) -> Array:
     """Binomial sums of five values of a line; beyond the ends as far as it goes on there."""
-    modes: dict[End, Literal["symmetric", "wrap", "constant"]]
-    modes = {"mirror": "symmetric", "periodic": "wrap", "pinned": "constant"}
     # each end goes on from the line itself, not from what was put before it
-    others = ((0, 0),) * (values.ndim - 1)
-    before = np.pad(values, ((2, 0), *others), mode=modes[low])[:2]
-    after = np.pad(values, ((0, 2), *others), mode=modes[high])[-2:]
-    return window_sum(np.concatenate([before, values, after]), BINOMIAL)
+    before, after = _continued_or_zero(values, low), _continued_or_zero(values[::-1], high)
+    return window_sum(np.concatenate([before[::-1], values, after]), BINOMIAL)
+
+
+def _continued_or_zero(values: Array, end: End) -> Array:
+    """The next two values of an even line beyond its first, 0 beyond a pin."""
+    if end == "pinned":
+        return np.zeros((2, *values.shape[1:]))
+    return _continued(values, end, EVEN_PARITY)
 
 
 def _extrapolate(values: Array) -> Array:

@@ -298,9 +298,9 @@ class PoolField:
         right[: self.count] = values
         if pins is not None:
             right += PIN_WEIGHT * (P.T @ pins)
-        f = np.zeros(self.size)
+        f = inverse.solve(right)
         # iterative refinement: each pass solves for the residual of the one before
-        for _ in range(1 + REFINEMENTS):
+        for _ in range(REFINEMENTS):
             f = f + inverse.solve(right - A @ f)
         return f
 

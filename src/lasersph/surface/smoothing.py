@@ -61,9 +61,9 @@ class Smoothing:
     def solve(self, values: Array, pinned: Array) -> Array:
         """F of values (count,) with heights (pins,) of the pinned ends."""
         (D, P), (D_T, P_T) = (self.differences, self.pins), self.transposed
-        f = np.zeros(values.size)
+        f = self.inverse.solve(values + P_T @ pinned)
         # iterative refinement: each pass solves for the residual of the one before
-        for _ in range(1 + REFINEMENTS):
+        for _ in range(REFINEMENTS):
             f = f + self.inverse.solve(values - f - D_T @ (D @ f) - P_T @ (P @ f - pinned))
         return f
 

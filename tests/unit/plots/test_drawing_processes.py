@@ -42,6 +42,7 @@ def test_the_other_process_draws(folder):
     """While this process draws a picture, the other one draws the next."""
     names = ["temperature", "energy"]
     files = {name: folder / "figures" / f"{name}.png" for name in names}
+    (folder / "figures").mkdir(exist_ok=True)
     for file in files.values():
         file.unlink(missing_ok=True)
 

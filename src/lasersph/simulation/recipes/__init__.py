@@ -10,6 +10,7 @@ from lasersph.simulation.recipes.recipe import (
     FlowForecast,
     Recipe,
     RunStage,
+    StepCost,
     StepForecast,
 )
 
@@ -21,6 +22,7 @@ __all__ = [
     "MeltPoolRecipe",
     "Recipe",
     "RunStage",
+    "StepCost",
     "StepForecast",
     "recipe_of",
 ]

@@ -18,7 +18,7 @@ from lasersph.observers.electron_view import ElectronView
 from lasersph.observers.view import View
 from lasersph.particles.filling import Filling
 from lasersph.simulation.hot_electrons import optics_of_hot_electrons
-from lasersph.simulation.recipes.recipe import Recipe, RunStage, SolverT, StepForecast
+from lasersph.simulation.recipes.recipe import Recipe, RunStage, SolverT, StepCost, StepForecast
 from lasersph.solvers.conduction.body import assemble
 from lasersph.solvers.conduction.electron_body import with_electrons
 from lasersph.solvers.conduction.settings import ConductionSettings
@@ -186,15 +186,13 @@ class HeatRecipe(Recipe[HeatT, SolverT]):
                 found[-1] = (name, now, found[-1][2] + 1)
             else:
                 found.append((name, now, 1))
-        return tuple(
-            RunStage(name, end, steps, self.products_of(name)) for name, end, steps in found
-        )
+        return tuple(RunStage(name, end, steps, self.cost_of(name)) for name, end, steps in found)
 
-    def products_of(self, _stage: str) -> float:
-        """Cost of a step, see `RunStage`."""
+    def cost_of(self, _stage: str) -> StepCost:
+        """Cost of a step."""
         if self.settings.has_two_temperatures:
-            return PRODUCTS["two"]
-        return PRODUCTS["explicit" if self.settings.is_explicit else "implicit"]
+            return StepCost(PRODUCTS["two"])
+        return StepCost(PRODUCTS["explicit" if self.settings.is_explicit else "implicit"])
 
     def implicit_forecast(self, flow_limits: dict[str, float]) -> StepForecast:
         """Steps of a body whose heat is implicit; a pool may flow from the first light on."""
@@ -225,12 +223,12 @@ class HeatRecipe(Recipe[HeatT, SolverT]):
             "conduction",
             time.end,
             int(np.ceil((time.end - duration) / longest)),
-            self.products_of("conduction"),
+            self.cost_of("conduction"),
         )
         if duration == 0.0:
             return StepForecast(limits, (resting,))
         flowing = int(np.ceil(duration / shortest))
-        first = RunStage("flow", duration, flowing, self.products_of("flow"))
+        first = RunStage("flow", duration, flowing, self.cost_of("flow"))
         return StepForecast(limits, (first, resting))
 
 
@@ -256,8 +254,8 @@ class ConductionRecipe(HeatRecipe[ConductionSettings, Conduction]):
 
     def step_forecast(self) -> StepForecast:
         """Limits, number and cost of the steps."""
-        products = self.products_of("conduction")
-        if fixed := self.fixed_steps("conduction", products):
+        cost = self.cost_of("conduction")
+        if fixed := self.fixed_steps("conduction", cost):
             return fixed
         if not self.settings.is_explicit:
             return self.implicit_forecast({})
@@ -266,4 +264,4 @@ class ConductionRecipe(HeatRecipe[ConductionSettings, Conduction]):
         diffusivity = steepest / self.case.material.density_reference
         stable = EXACT_LIMIT[self.settings.dimensions] * self.layers.spacing**2 / diffusivity
         limits = {"end": self.case.time.end, "conduction": stable} | self.longest_step()
-        return self.even_steps(limits, "conduction", products)
+        return self.even_steps(limits, "conduction", cost)

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from math import ceil
-from typing import Any, ClassVar, Generic, TypeVar, cast
+from typing import Any, ClassVar, Generic, NamedTuple, TypeVar, cast
 
 from lasersph.analytic.melt_depth import MeltEstimate
 from lasersph.case import Case
@@ -35,19 +35,35 @@ FEWEST_ROWS = 2
 """Rows of a boundary layer below which it is not resolved. Forecast: `run` asks for --anyway."""
 
 
+SECONDS_PER_STEP = 3e-3
+"""Besides the products [s]: calls of loops, observers, files. Forecast:
+`benchmarks/small_steps.py`."""
+
+
+class StepCost(NamedTuple):
+    """Cost of a step on one thread.
+
+    Attributes:
+        products: of a matrix of all pairs with a vector. seconds: besides, by the host [s].
+    """
+
+    products: float
+    seconds: float = SECONDS_PER_STEP
+
+
 @dataclass(frozen=True)
 class RunStage:
     """A span of a run in which all steps cost alike.
 
     Attributes:
         name: for a reader. end: simulated time at which it ends [s]. steps: expected number.
-        products: cost of a step, in products of a matrix of all pairs with a vector.
+        cost: of a step.
     """
 
     name: str
     end: float
     steps: int
-    products: float
+    cost: StepCost
 
 
 @dataclass(frozen=True)
@@ -186,16 +202,16 @@ class Recipe(ABC, Generic[SettingsT, SolverT]):
         fluences = {"mean": laser.mean_fluence, "peak": laser.peak_fluence}
         return {"laser": {f"{name}_fluence_J_m2": value for name, value in fluences.items()}}
 
-    def fixed_steps(self, name: str, products: float) -> StepForecast | None:
+    def fixed_steps(self, name: str, cost: StepCost) -> StepForecast | None:
         """The forecast of a study with a fixed step; None elsewhere."""
         step = self.case.time.fixed_step
-        return None if step is None else self.even_steps({"fixed step": step}, name, products)
+        return None if step is None else self.even_steps({"fixed step": step}, name, cost)
 
-    def even_steps(self, limits: dict[str, float], name: str, products: float) -> StepForecast:
+    def even_steps(self, limits: dict[str, float], name: str, cost: StepCost) -> StepForecast:
         """The forecast of a run whose steps are all alike, from its limits [s]."""
         end = self.case.time.end
         steps = ceil(end / min(limits.values()))
-        return StepForecast(limits, (RunStage(name, end, steps, products),))
+        return StepForecast(limits, (RunStage(name, end, steps, cost),))
 
     def longest_step(self) -> dict[str, float]:
         """The limit that the case sets, by its name [s]; empty where it sets none."""

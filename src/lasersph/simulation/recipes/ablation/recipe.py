@@ -13,12 +13,12 @@ from lasersph.physics.compressible_limits import compressible_limits
 from lasersph.simulation.recipes.ablation.build import ablation_solver, decay_rates
 from lasersph.simulation.recipes.ablation.estimates import ablation_estimates
 from lasersph.simulation.recipes.ablation.view import ablation_fields
-from lasersph.simulation.recipes.recipe import Recipe, StepForecast
+from lasersph.simulation.recipes.recipe import Recipe, StepCost, StepForecast
 from lasersph.solvers.ablation.settings import AblationSettings
 from lasersph.solvers.ablation.solver import Ablation
 
-PRODUCTS = 2.0
-"""Cost of a step, in sums over all pairs. Forecast: rates at its start and in its middle."""
+COST = StepCost(2.0)
+"""Cost of a step. Forecast: rates at its start and in its middle."""
 
 
 class AblationRecipe(Recipe[AblationSettings, Ablation]):
@@ -54,10 +54,10 @@ class AblationRecipe(Recipe[AblationSettings, Ablation]):
         Matter that light falls on while it rests is limited by heat alone, as long as it rests.
         """
         # A fixed step needs no limits.
-        if fixed := self.fixed_steps("motion", PRODUCTS):
+        if fixed := self.fixed_steps("motion", COST):
             return fixed
         limits = {"end": self.case.time.end} | self.motion_limits(is_still=self.is_at_rest)
-        return self.even_steps(limits | self.longest_step(), "motion", PRODUCTS)
+        return self.even_steps(limits | self.longest_step(), "motion", COST)
 
     @property
     def is_at_rest(self) -> bool:

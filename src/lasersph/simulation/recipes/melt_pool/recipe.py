@@ -19,7 +19,7 @@ from lasersph.simulation.recipes.conduction import HeatRecipe
 from lasersph.simulation.recipes.melt_pool.build import surface_line, with_flow
 from lasersph.simulation.recipes.melt_pool.forecast import flow_forecast, recession_warning
 from lasersph.simulation.recipes.melt_pool.view import flow_view, numbers_of
-from lasersph.simulation.recipes.recipe import FlowForecast, StepForecast
+from lasersph.simulation.recipes.recipe import FlowForecast, StepCost, StepForecast
 from lasersph.simulation.scales import box_numbers, melt_numbers
 from lasersph.solvers.conduction.settings import ConductionSettings
 from lasersph.solvers.heat_settings import HeatSettings
@@ -28,9 +28,9 @@ from lasersph.solvers.melt_pool.solver import MeltPool
 from lasersph.surface.height_field import HeightField
 from lasersph.surface.moving_surface import MovingSurface
 
-FLOW_PRODUCTS = {"pool": 25.0, "box": 70.0}
-"""Cost of a step in which something flows, a part of the block or all of a box, in sums over all
-pairs. Forecast: as measured."""
+FLOW_COST = {"flat": StepCost(25.0), "moving": StepCost(25.0), "box": StepCost(70.0)}
+"""Cost of a step in which something flows, a part of the block or all of a box. Forecast: as
+measured."""
 
 
 class MeltPoolRecipe(HeatRecipe[MeltPoolSettings, MeltPool]):
@@ -136,21 +136,23 @@ class MeltPoolRecipe(HeatRecipe[MeltPoolSettings, MeltPool]):
         (x, _), (y, _) = line.ends
         return AreaRelief(line.centers(), line.centers(1), height, (x, y))
 
-    def products_of(self, stage: str) -> float:
-        """Cost of a step, see `RunStage`."""
+    def cost_of(self, stage: str) -> StepCost:
+        """Cost of a step."""
         if stage != "flow":
-            return super().products_of(stage)
-        return FLOW_PRODUCTS["pool" if self.case.flow is None else "box"]
+            return super().cost_of(stage)
+        if self.case.flow is not None:
+            return FLOW_COST["box"]
+        return FLOW_COST["moving" if self.case.surface_moves else "flat"]
 
     def step_forecast(self) -> StepForecast:
         """Limits, number and cost of the steps."""
-        products = self.products_of("flow")
-        if fixed := self.fixed_steps("flow", products):
+        cost = self.cost_of("flow")
+        if fixed := self.fixed_steps("flow", cost):
             return fixed
         if self.case.flow is None:
             return self.implicit_forecast(self.flow.limits)
         limits = {"end": self.case.time.end} | self.flow.limits | self.longest_step()
-        return self.even_steps(limits, "flow", products)
+        return self.even_steps(limits, "flow", cost)
 
     def warnings(self) -> list[str]:
         """Warnings for a user before the run: recession, resolution of the layer that moves."""
