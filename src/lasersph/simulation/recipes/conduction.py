@@ -29,10 +29,11 @@ from lasersph.solvers.step_control import name_of_longest
 
 HeatT = TypeVar("HeatT", bound=HeatSettings)
 
-PRODUCTS = {"implicit": 6.0, "explicit": 2.0, "two": 150.0}
+PRODUCTS = {"implicit": 6.0, "implicit in space": 2.0, "explicit": 2.0, "two": 150.0}
 """Cost of a step of heat, in sums over all pairs: iterations of Newton and of conjugate gradients,
 the two stages, or six linear solves of two temperatures. Forecast: 2.4 Newton and 5.6 linear
-iterations of `dlip-steel --quick` over rows that are partly inactive; 20 a solve of two."""
+iterations of `dlip-steel --quick` over rows that are partly inactive; 20 a solve of two; in space
+as `dots-steel` and the steps of `texture-dots-steel` in which nothing flows."""
 RELAXING = 0.05
 """Step of two temperatures after the light, over the time since it. Forecast: `short-pulse-gold`
 takes 0.02 to 0.2."""
@@ -192,7 +193,14 @@ class HeatRecipe(Recipe[HeatT, SolverT]):
         """Cost of a step."""
         if self.settings.has_two_temperatures:
             return StepCost(PRODUCTS["two"])
-        return StepCost(PRODUCTS["explicit" if self.settings.is_explicit else "implicit"])
+        if self.settings.is_explicit:
+            return StepCost(PRODUCTS["explicit"])
+        return StepCost(PRODUCTS["implicit in space" if self.is_in_space else "implicit"])
+
+    @property
+    def is_in_space(self) -> bool:
+        """Whether the run has three dimensions."""
+        return self.settings.dimensions == 3
 
     def implicit_forecast(self, flow_limits: dict[str, float]) -> StepForecast:
         """Steps of a body whose heat is implicit; a pool may flow from the first light on."""
