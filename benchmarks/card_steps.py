@@ -8,11 +8,14 @@ apart; a kernel is named by the functions that its loop calls. What the kernels 
 without events is the host's: Python between launches, and waiting for numbers.
 """
 
+# pyright: reportAttributeAccessIssue=false
+# NVIDIA's packages say little about what they hold.
+
 from __future__ import annotations
 
 import argparse
 import re
-from collections import Counter
+from collections import Counter, defaultdict
 from collections.abc import Callable
 from functools import cache
 from pathlib import Path
@@ -43,7 +46,8 @@ class Events:
 
         self._driver, self._card = driver, cuda_card
         self._pairs: list[tuple[str, Any, Any]] = []
-        self.waits, self.counts = Counter[str](), Counter[str]()
+        self.waits: dict[str, float] = defaultdict(float)
+        self.counts = Counter[str]()
         self.is_on = False
         self._patch_calls()
         for owner, name in ((cuda_card.Room, "read"), (cuda_memory, "to_host"),
@@ -141,7 +145,8 @@ def main() -> None:
     advance(solver, 1.0)
     with_events = perf_counter() - begin
     kernels = events.kernels
-    total, number = Counter[str](), Counter[str]()
+    total: dict[str, float] = defaultdict(float)
+    number = Counter[str]()
     for name, time in kernels:
         total[name] += time
         number[name] += 1
@@ -152,7 +157,7 @@ def main() -> None:
         print(f"  {name}: {events.counts[name]} times, {1e3 * seconds:.2f} ms of the host")
     rows = [
         [name, str(number[name]), f"{time:.2f}", f"{100 * time / every:.0f} %"]
-        for name, time in total.most_common(25)
+        for name, time in sorted(total.items(), key=lambda one: -one[1])[:25]
     ]
     print(text_table(rows, ["kernel", "launches", "[ms]", "share"]))
 
