@@ -42,7 +42,7 @@ from lasersph.surface.column_loops import thickness_of
 from lasersph.surface.forcing import SurfaceForcing
 from lasersph.surface.height_field import HeightField, length_ratio
 from lasersph.surface.pools import SurfacePools
-from lasersph.surface.pressure_condition import SurfaceLiquid, find_conditions
+from lasersph.surface.pressure_condition import PairsAcross, SurfaceLiquid
 from lasersph.surface.pressure_gradient import DifferenceGradient
 from lasersph.surface.recession import MassLoss, take_mass
 from lasersph.surface.segments import SurfaceSegments, overrun
@@ -137,6 +137,7 @@ class MovingSurface(Surface):
         self._is_overrun = np.zeros(line.count, bool)
         self.segments = SurfaceSegments(line) if dimension == 2 else SurfacePools(line)
         self.loss = MassLoss(line.count, liquid.particle_density, forcing)
+        self._across = PairsAcross(backend, line)
         self.values = self._no_values()
         metal = liquid.material
         self._initial_tension = float(metal.surface_tension_at(metal.flow_temperature))
@@ -245,9 +246,8 @@ class MovingSurface(Surface):
         # boundary coefficients of the pressure equation, and the jump that passes on all stress
         relative = self.liquid.relative_viscosity_at(values.T_line)
         ratio = length_ratio(self.segments.slopes)
-        self.pressure, share = find_conditions(
-            backend, line, molten, members, self.ghosts, neighbors, relative, ratio
-        )
+        share = self._across.find(molten, members, self.ghosts, neighbors, relative, ratio)
+        self.pressure = self._across.condition
         shares = backend.asarray(np.pad(share.reshape(line.shape), 2, mode="edge").ravel())
         fields = {"x": now.position, "jump": self.velocity_jump}
         backend.pointwise(loops.passed_on, fields, self.stress_jump, **self._nodes, share=shares)

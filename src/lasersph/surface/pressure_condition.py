@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lasersph.compute.backend import Backend
+from lasersph.compute.graph import graph
 from lasersph.materials import Material
 from lasersph.materials.viscosity import ViscosityTable
 from lasersph.particles.neighbor_lists import NeighborList
@@ -49,44 +50,70 @@ class SurfaceLiquid(NamedTuple):
         return np.interp(T, *self.relative_viscosity)
 
 
-def find_conditions(
-    backend: Backend,
-    line: HeightField,
-    molten: NDArray[np.bool_],
-    members: NeighborList,
-    ghosts: SurfaceGhosts,
-    neighbors: SurfaceNeighbors,
-    relative_viscosity: HostArray,
-    length_ratio: HostArray,
-) -> tuple[PressureCondition, HostArray]:
-    """Condition of the pressure equation, and the share of the surface (columns,) that pairs see.
+class PairsAcross:
+    """What pairs across a line see of it, with arrays that are kept while a block has as many rows.
 
-    Args:
-        molten: (columns,) which move. members: particles that flow, by column. relative_viscosity:
-            (columns,) of the surface over that at the liquidus. length_ratio: (columns,) its true
-            length over that seen from above.
+    Attributes:
+        condition: of the pressure equation.
     """
-    count = neighbors.pairs.row_start.shape[0] - 1
-    # boundary coefficient, p_b and length of surface seen, for each particle
-    a, p_b, length = (backend.zeros(count) for _ in range(3))
-    fields = {"g_ij": neighbors.weights, "across": neighbors.across}
-    fields |= {"distance": neighbors.gather(ghosts.distance)}
-    fields |= {"p_b": neighbors.gather(ghosts.pressure)}
-    terms, finish = loops.given_pressure, loops.given_pressure_of_row
-    backend.pair_sum(terms, neighbors.pairs, fields, (a, p_b, length), finish=finish)
-    # where viscosity varies, the length counts as the stress of the pairs does
-    if neighbors.viscous_weights is not neighbors.weights:
-        fields["g_ij"] = neighbors.viscous_weights
-        out = (backend.zeros(count), backend.zeros(count), length)
+
+    def __init__(self, backend: Backend, line: HeightField) -> None:
+        self.backend, self.line = backend, line
+        self._columns = {"k": backend.asarray(np.arange(line.count), "index")}
+        self._seen = backend.zeros(line.count)
+        self._make_arrays(0)
+
+    def _make_arrays(self, count: int) -> None:
+        """Arrays of so many particles."""
+        self._a, self._p_b, self._length = (self.backend.zeros(count) for _ in range(3))
+        self.condition = PressureCondition(coefficient=self._a, value=self._p_b)
+
+    def find(
+        self,
+        molten: NDArray[np.bool_],
+        members: NeighborList,
+        ghosts: SurfaceGhosts,
+        neighbors: SurfaceNeighbors,
+        relative_viscosity: HostArray,
+        length_ratio: HostArray,
+    ) -> HostArray:
+        """Set the condition; returns the share of the surface (columns,) that pairs see.
+
+        Args:
+            molten: (columns,) which move. members: particles that flow, by column.
+                relative_viscosity: (columns,) of the surface over that at the liquidus.
+                length_ratio: (columns,) its true length over that seen from above.
+        """
+        backend, line = self.backend, self.line
+        count = neighbors.pairs.row_start.shape[0] - 1
+        if self._a.shape[0] != count:
+            self._make_arrays(count)
+        self.sum_pairs(neighbors, ghosts)
+        # length that the particles of each column see, over its own, of rings over their area
+        tables = {"row_start": members.row_start, "member": members.neighbor, "V": self._length}
+        inverse_area = line.inverse_area
+        backend.pointwise(
+            thickness_of, self._columns, self._seen, **tables, inverse_area=inverse_area
+        )
+        seen = backend.to_host(self._seen)
+        share = seen / (line.measure.ravel() * length_ratio * relative_viscosity)
+        shape = line.shape
+        mean = line.mean_of_neighbors(share.reshape(shape), molten.reshape(shape)).ravel()
+        share = np.where(molten, mean, 1.0)
+        return np.clip(share, LEAST_SHARE, 1.0 / LEAST_SHARE)
+
+    @graph
+    def sum_pairs(self, neighbors: SurfaceNeighbors, ghosts: SurfaceGhosts) -> None:
+        """Boundary coefficient, p_b and length of surface seen, for each particle."""
+        backend, length = self.backend, self._length
+        fields = {"g_ij": neighbors.weights, "across": neighbors.across}
+        fields |= {"distance": neighbors.gather(ghosts.distance)}
+        fields |= {"p_b": neighbors.gather(ghosts.pressure)}
+        terms, finish = loops.given_pressure, loops.given_pressure_of_row
+        out = self._a, self._p_b, length
         backend.pair_sum(terms, neighbors.pairs, fields, out, finish=finish)
-    # length that the particles of each column see, over its own, of rings over their area
-    seen, places = backend.zeros(line.count), {"k": backend.asarray(np.arange(line.count), "index")}
-    tables = {"row_start": members.row_start, "member": members.neighbor, "V": length}
-    inverse_area = line.inverse_area
-    backend.pointwise(thickness_of, places, seen, **tables, inverse_area=inverse_area)
-    share = backend.to_host(seen) / (line.measure.ravel() * length_ratio * relative_viscosity)
-    shape = line.shape
-    mean = line.mean_of_neighbors(share.reshape(shape), molten.reshape(shape)).ravel()
-    share = np.where(molten, mean, 1.0)
-    condition = PressureCondition(coefficient=a, value=p_b)
-    return condition, np.clip(share, LEAST_SHARE, 1.0 / LEAST_SHARE)
+        # where viscosity varies, the length counts as the stress of the pairs does
+        if neighbors.viscous_weights is not neighbors.weights:
+            fields["g_ij"] = neighbors.viscous_weights
+            out = backend.zeros(length.shape[0]), backend.zeros(length.shape[0]), length
+            backend.pair_sum(terms, neighbors.pairs, fields, out, finish=finish)

@@ -154,8 +154,7 @@ class Transport:
         self.backend.pointwise(passing_velocity, fields, self._passing)
         # pools: melt that nothing separates
         flows = self.backend.head(kinds.fluid, block.count)
-        volume = self.backend.head(self.volume, block.count)
-        self._equation.set_operator(block.without_ghosts(), block.weights, flows, volume)
+        self._equation.set_operator(block.without_ghosts(), block.weights, flows, self._V)
         # F*, phi that closes its balance, F
         self.find_flux(block, ride.growth)
         self._equation.solve(self._gathered, self._phi)
@@ -168,7 +167,7 @@ class Transport:
         """Work vectors for a block and its pairs."""
         backend, count = self.backend, block.count
         if block is not self._block:
-            self._block = block
+            self._block, self._V = block, backend.head(self.volume, count)
             self._equation = PressureEquation(
                 backend,
                 count,
