@@ -1,4 +1,6 @@
-"""The modules that a computation runs through, by their imports, with a hash of each.
+"""The modules that a computation runs through, by their imports, with a hash of what each computes.
+
+Comments and docstrings do not count: a better sentence makes no record stale.
 
 Imports are read from the text of the modules and followed name by name: `from lasersph.case import
 load_case` leads to the module that `lasersph/case/__init__.py` takes it from and to nothing else
@@ -24,6 +26,7 @@ NUMBERS_OF_VALIDATION = {"comparison", "lattices", "tables"}
 """Files of this room that can, beside those in the folder of a validation."""
 JUDGE = f"{PACKAGE}.validation.comparison"
 TIME_LOOP = f"{PACKAGE}.simulation.time_loop"
+STRING = ast.Constant | ast.JoinedStr
 RECIPES = f"{PACKAGE}.simulation.recipes"
 """A list that imports every solver; which of them runs is said by the case."""
 
@@ -34,7 +37,7 @@ def recipe_module(kind: str) -> str:
 
 
 def hashes(modules: Iterable[str]) -> dict[str, str]:
-    """Hash of the text of `modules` and of all that they import, by name; "" of one that is gone.
+    """Hash of the code of `modules` and of all that they import, by name; "" of one that is gone.
 
     A text is read once a process: what was loaded counts, though files are edited meanwhile.
     """
@@ -60,8 +63,37 @@ def _has_no_numbers(module: str) -> bool:
 
 @cache
 def _hash(module: str) -> str:
+    text, tree = _parsed(module)
+    return hashlib.sha256(code_of(text, tree).encode()).hexdigest()[:16] if text else ""
+
+
+@cache
+def _parsed(module: str) -> tuple[str, ast.Module]:
+    """Text of a module, "" of one that is gone, and its syntax tree."""
     file = _file(module)
-    return hashlib.sha256(file.read_bytes()).hexdigest()[:16] if file.is_file() else ""
+    text = file.read_text(encoding="utf-8") if file.is_file() else ""
+    return text, ast.parse(text)
+
+
+def code_of(text: str, tree: ast.Module) -> str:
+    """The lines of a module that compute: without docstrings, lines of comments and empty ones."""
+    words, quoted = set[int](), set[int]()
+    for node in ast.walk(tree):
+        if not isinstance(node, ast.Expr | STRING):
+            continue
+        lines = range(node.lineno, (node.end_lineno or node.lineno) + 1)
+        # a string that stands alone says something; in others a # is no comment
+        if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant):
+            words |= set(lines)
+        elif isinstance(node, STRING):
+            quoted |= set(lines[1:])
+    kept = [
+        line
+        for number, line in enumerate(text.splitlines(), 1)
+        if number not in words
+        and (number in quoted or (line.strip() and not line.lstrip().startswith("#")))
+    ]
+    return "\n".join(kept)
 
 
 def _file(module: str) -> Path:
@@ -79,9 +111,8 @@ def _imports(module: str) -> frozenset[str]:
 @cache
 def _imported(module: str, *, runs: bool) -> tuple[tuple[str, str], ...]:
     """(name, module it comes from) of all imports; `runs`: but for those of type checkers."""
-    file = _file(module)
     # Walk through the syntax tree: imports inside of functions count as well.
-    left: list[ast.AST] = [ast.parse(file.read_text(encoding="utf-8"))] if file.is_file() else []
+    left: list[ast.AST] = [_parsed(module)[1]]
     found = []
     while left:
         node = left.pop()

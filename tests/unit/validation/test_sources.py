@@ -1,5 +1,6 @@
 """Which modules a computation runs through, by imports, and that it runs through no other."""
 
+import ast
 import sys
 from pathlib import Path
 
@@ -31,6 +32,16 @@ def test_a_solver_without_the_others():
     assert "lasersph.input.findings" not in found  # what is said of a case that is refused
     assert "lasersph.solvers.melt_pool.flow" in modules_of("melt-pool")
     assert "lasersph.solvers.conduction.implicit" in modules_of("melt-pool")
+
+
+def test_words_do_not_count():
+    """Docstrings, lines of comments and empty ones are left out; strings that are read stay."""
+    text = (
+        '"""Words."""\n\n# words\nX = 1  # kept\n"""Words\nof X."""\n\n'
+        'def f():\n    """Words."""\n    # words\n    return """\n# text\n\n"""\n'
+    )
+    kept = 'X = 1  # kept\ndef f():\n    return """\n# text\n\n"""'
+    assert sources.code_of(text, ast.parse(text)) == kept
 
 
 def test_of_a_validation():
