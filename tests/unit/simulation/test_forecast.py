@@ -37,8 +37,8 @@ LAYERS = {
     "stefan": (200, 200, 200),
     "taylor-green": (50, 50, 2500),
     "texture-aluminium": (73, 31, 2799),
-    "texture-dots-steel": (30, 15, 102008),
-    "texture-hexagons-steel": (30, 15, 176560),
+    "texture-dots-steel": (29, 14, 95924),
+    "texture-hexagons-steel": (29, 14, 166026),
     "texture-steel": (58, 26, 5491),
     "texture-steel-10ps": (47, 16, 7815),
 }
