@@ -22,7 +22,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from itertools import product
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -71,6 +71,18 @@ class FacePair:
         # the ghost beyond one face of a period belongs to a particle near the other
         near = self.lower + self.upper - plane
         return 1.0, plane - near, near
+
+
+class Reach(NamedTuple):
+    """How far each particle finds others, or is found, along which faces have ghosts of it.
+
+    radius: (count,) among those of its own support [m]. reach: (count,) among all [m]. plane: z
+    above which nobody sees one of another support [m].
+    """
+
+    radius: Array
+    reach: Array
+    plane: float
 
 
 @dataclass(frozen=True)
@@ -131,25 +143,32 @@ def face_mark(x, low, high, radius):
     return mark
 
 
-def near_faces(x, search_radius, low, high):
+def reach_at(x, radius, reach, plane):
+    """How far a particle finds others or is found at its place [m], see `Reach`."""
+    return radius if x[-1] > plane else reach
+
+
+def near_faces(x, radius, reach, plane, low, high):
     """Faces of each axis that a particle is near, see `face_mark`; 1 where near any."""
-    marks = vector(*(face_mark(x[k], low[k], high[k], search_radius) for k in range(len(x))))
+    within = reach_at(x, radius, reach, plane)
+    marks = vector(*(face_mark(x[k], low[k], high[k], within) for k in range(len(x))))
     return marks, 1.0 if dot(marks, marks) > 0.0 else 0.0
 
 
-def near_surface(x, distance, radius, search_radius, low, high):
+def near_surface(x, distance, radius, reach, plane, low, high):
     """`near_faces` below a surface at a distance, instead of an upper face of the last axis.
 
     Within the particle's own radius: ghosts of coarse ones deep below a flank would lie across its
     tangent far from it, in the melt of a valley. Ghosts across an inclined tangent are seen beyond
     a lateral face though their source is not within the radius of it.
     """
-    below = 1.0 if abs(x[-1] - low[-1]) < search_radius else 0.0
+    within = reach_at(x, radius, reach, plane)
+    below = 1.0 if abs(x[-1] - low[-1]) < within else 0.0
     above = 2.0 if distance < radius else 0.0
     # ghosts across a tangent may lie beyond a side though their source is further from it
-    reach = SLANTED * search_radius if above > 0.0 else search_radius
+    aside = SLANTED * within if above > 0.0 else within
     marks = vector(
-        *(face_mark(x[k], low[k], high[k], reach) for k in range(len(x) - 1)), below + above
+        *(face_mark(x[k], low[k], high[k], aside) for k in range(len(x) - 1)), below + above
     )
     return marks, 1.0 if dot(marks, marks) > 0.0 else 0.0
 
@@ -191,12 +210,10 @@ class GhostParticles:
             is_near: (n,) 1 for them; all_rows: (n,) 1 for all.
     """
 
-    def __init__(
-        self, backend: Backend, count: int, search_radius: float, ghost_types: GhostTypes
-    ) -> None:
+    def __init__(self, backend: Backend, count: int, ghost_types: GhostTypes) -> None:
         self.backend, self.count, self.ghost_types = backend, count, ghost_types
         low, high = (tuple(places.tolist()) for places in ghost_types.near.T)
-        self._bounds: Constants = {"low": low, "high": high, "search_radius": search_radius}
+        self._bounds: Constants = {"low": low, "high": high}
         self._near_faces = near_surface if ghost_types.crosses_surface.any() else near_faces
         self._crossed = backend.asarray(ghost_types.crossed, "index")
         self._marks = backend.zeros((len(low), count))
@@ -208,20 +225,20 @@ class GhostParticles:
         self.source = backend.zeros(0, "index")
         self.ghost_type = backend.zeros(0, "index")
 
-    def find(self, position: Array, distance: Array, radius: Array) -> None:
+    def find(self, position: Array, distance: Array, reach: Reach) -> None:
         """Find the ghosts of the particles at `position`, shape (d, n) [m].
 
         Args:
-            distance: (n,) from a surface that is the upper TANGENT face [m]. radius: (count,)
-                within which particles have ghosts across it [m].
+            distance: (n,) from a surface that is the upper TANGENT face [m]. reach: within which
+                particles have ghosts.
         """
         backend, count = self.backend, self.count
 
         # particles near a face, and the faces that they are near
-        fields = {"x": backend.head(position, count), "radius": radius}
-        fields["distance"] = backend.head(distance, count)
+        fields = {"x": backend.head(position, count), "radius": reach.radius}
+        fields |= {"reach": reach.reach, "distance": backend.head(distance, count)}
         out = self._marks, self.is_near
-        backend.pointwise(self._near_faces, fields, out, **self._bounds)
+        backend.pointwise(self._near_faces, fields, out, **self._bounds, plane=reach.plane)
         near = self.near = backend.rows_where(self.is_near, 1.0)
 
         # which pairs of a type and such a particle make a ghost

@@ -15,6 +15,7 @@ from lasersph.particles.ghosts import (
     UPPER,
     FacePair,
     GhostParticles,
+    Reach,
     ghost_types_of,
 )
 
@@ -33,9 +34,9 @@ def ghosts(backend):
         faces = (FacePair(kinds[0], kinds[1], *X), FacePair(kinds[2], kinds[3], *Z))
         position = np.array(position, float).T
         count = count or position.shape[1]
-        found = GhostParticles(backend, count, search_radius, ghost_types_of(faces))
-        nothing = backend.zeros(position.shape[1])
-        found.find(backend.asarray(position), nothing, nothing)
+        found = GhostParticles(backend, count, ghost_types_of(faces))
+        nothing, radius = backend.zeros(position.shape[1]), backend.asarray([search_radius] * count)
+        found.find(backend.asarray(position), nothing, Reach(radius, radius, 0.0))
         source, ghost_type = (
             backend.to_host(part).astype(int) for part in (found.source, found.ghost_type)
         )
@@ -119,6 +120,15 @@ def test_box_narrower_than_the_search_radius(ghosts):
     assert sorted(place[0]) == pytest.approx([-0.4, 1.6])
 
 
+def test_reach_above_and_below_a_plane(backend):
+    """Above it ghosts lie within the radius of a particle, below it within its reach."""
+    found = GhostParticles(backend, 2, ghost_types_of(unit_box(MIRROR, OPEN)))
+    place = backend.asarray(np.array([[0.2, 0.2], [0.6, 0.4]]))
+    radius, reach = backend.asarray([0.1, 0.1]), backend.asarray([0.3, 0.3])
+    found.find(place, backend.zeros(2), Reach(radius, reach, 0.5))
+    assert backend.to_host(found.source)[: found.total].tolist() == [0, 1, 1]
+
+
 def test_order(ghosts):
     """Those of x come first, then those of z with their corners; of each type in the order of i."""
     found, _ = ghosts([(0.9, -0.9), (0.5, -0.5), (0.1, -0.9), (0.2, -0.6)], *[MIRROR] * 4)
@@ -141,9 +151,9 @@ def unit_box(*kinds):
 def found_at(backend, faces, place, below=(0.0, 0.0)):
     """Places and types of the ghosts of one particle within 0.3 of the faces."""
     types = ghost_types_of(faces)
-    found = GhostParticles(backend, 1, 0.3, types)
-    below = tuple(backend.asarray([one]) for one in below)
-    found.find(backend.asarray(np.array(place)[:, None]), *below)
+    found = GhostParticles(backend, 1, types)
+    distance, radius, reach = (backend.asarray([one]) for one in (*below, 0.3))
+    found.find(backend.asarray(np.array(place)[:, None]), distance, Reach(radius, reach, 1.0))
     of_type = backend.to_host(found.ghost_type).astype(int)[1 : found.total]
     places = types.sign[:, of_type] * np.array(place)[:, None] + types.offset[:, of_type]
     return {tuple(np.round(one, 12)) for one in places.T}, types.crossed[:, of_type], of_type

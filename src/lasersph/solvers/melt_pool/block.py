@@ -42,10 +42,16 @@ def depth_of_fluid(x, fluid):
     return -x[-1] if fluid > 0.0 else -1.0
 
 
-def within_reach(x, near, reach, melt_depth):
-    """1 where a particle may have a fluid neighbor: near one by the cells, and not deeper below the
-    melt than it sees [m], with a fifth more than that for what moves in a step."""
-    return near if -x[-1] - melt_depth < 1.2 * reach else 0.0 * near
+def within_reach(x, near, near_fine, reach, finest, melt_depth):
+    """1 where a particle may have a fluid neighbor: near one by the cells, those of the finest
+    particles where it sees no further, and not deeper below the melt than it sees [m]."""
+    by_cells = near_fine if reach <= finest else near
+    return by_cells if -x[-1] - melt_depth < MOVED * reach else 0.0 * near
+
+
+MOVED = 1.2
+"""Distance within which a particle looks for melt over that at which it sees some. Geometry: what
+moves in a step."""
 
 
 class Block:
@@ -102,9 +108,9 @@ class Block:
 
         # layers, ghosts and walls
         types = ghost_types_of(conditions.ghost_faces(surface, has_bottom=has_bottom))
-        self.layers = BlockLayers(backend, lattice, self.volume, types)
+        self.layers = BlockLayers(backend, lattice, self.volume, types, fine_depth)
         rules = conditions.rules(types)
-        particles = GhostParticles(backend, count, self.layers.search_radius, types)
+        particles = GhostParticles(backend, count, types)
         self.ghosts = GhostExtension(backend, particles, rules, surface)
         self.walls = BlockWalls(
             backend, conditions, rules, self.ghosts, potential=potential, enthalpy=enthalpy
@@ -115,9 +121,12 @@ class Block:
         self._bounds = (*sides, (max(z[0], bottom), surface.top))
         supports = self.layers.moving_support, self.layers.largest_support
         near = SKIN * float(lattice.weighing.mean(*supports))
-        self._even_above = near - fine_depth
         repeats = [period > 0.0 for period in conditions.periods]
         self._near_melt = NearMelt(backend, count, self._bounds, near, repeats=repeats)
+        # the finest particles, most of all, see no further than their own support
+        self._finest = float(self.layers.reach_of_melt.min()) * (1.0 + 1e-9)
+        fine = MOVED * self._finest
+        self._near_fine = NearMelt(backend, count, self._bounds, fine, repeats=repeats)
         # fine layers see less far below the melt than the coarsest, for which the cells are made
         self._reach = backend.asarray(self.layers.reach_of_melt)
         self._is_graded = SKIN * self.layers.moving_support < near
@@ -183,7 +192,7 @@ class Block:
         self.rows = None if has_row is None else backend.rows_where(has_row, 1.0)
 
         # ghosts, what they have of their sources and of the faces between
-        ghosts.find(position, layers.radius)
+        ghosts.find(position, layers.reach)
         self.extend_to_ghosts(position)
         self._find_rows_near_faces()
         self.walls.find_varying()
@@ -206,7 +215,7 @@ class Block:
 
         # kernels and weights of the pairs
         geometry, neighbor = self._geometry, self.pairs.neighbor
-        geometry.set_pairs(self.pairs, has_row, self._even_above)
+        geometry.set_pairs(self.pairs, has_row, layers.reach.plane)
         self.weights, self.gradient, self.kernel = geometry.arrays
         if self._folded.shape != neighbor.shape:
             self._folded = backend.zeros(neighbor.shape[0], "index")
@@ -299,8 +308,10 @@ class Block:
         head = self.backend.head
         fields = {"x": head(position, self.count), "fluid": head(fluid, self.count)}
         (depth,) = self.backend.pointwise(depth_of_fluid, fields, (None,), reduce=("max",))
-        fields |= {"near": near, "reach": self._reach}
-        self.backend.pointwise(within_reach, fields, near, melt_depth=depth)
+        fields |= {"near": near, "near_fine": self._near_fine.find(position, fluid)}
+        fields |= {"reach": self._reach}
+        constants = {"finest": self._finest, "melt_depth": depth}
+        self.backend.pointwise(within_reach, fields, near, **constants)
         return near
 
     def smallest_distance(self, position: Array, rows: Rows) -> tuple[float, ...]:

@@ -9,13 +9,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from math import inf
 
 import numpy as np
 
 from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
 from lasersph.particles.geometry import Geometry
-from lasersph.particles.ghosts import LOWER, UPPER, GhostTypes
+from lasersph.particles.ghosts import LOWER, UPPER, GhostTypes, Reach
 from lasersph.particles.support import common
 from lasersph.solvers.conduction.body import Weighing
 from lasersph.solvers.melt_pool import ghost_fields
@@ -53,13 +54,14 @@ class BlockLayers:
 
     Args:
         volume: (count,) of the particles, which may change [m^2]. types: of the ghosts.
+            fine_depth: above which the finest particles stay [m].
 
     Attributes:
         moving_support: of the particles that move, the finest [m]. search_radius: largest [m].
-        mean: support radius of a pair from those of both. radius: (count,) within which each
-            particle finds neighbors [m]. reach_of_melt: (count,) host array, within which it finds
-            those that move [m]. fields: (M,) of particles and ghosts, by the names that
-            pair functions use; V and support are among them.
+        mean: support radius of a pair from those of both. reach: within which each particle finds
+            neighbors. reach_of_melt: (count,) host array, within which it finds those that move
+            [m]. fields: (M,) of particles and ghosts, by the names that pair functions use; V and
+            support are among them.
     """
 
     def __init__(
@@ -68,6 +70,7 @@ class BlockLayers:
         lattice: StaticParticleData,
         volume: Array,
         types: GhostTypes,
+        fine_depth: float,
     ) -> None:
         # supports, and the radius within which pairs are searched
         count = volume.shape[0]
@@ -76,7 +79,7 @@ class BlockLayers:
         self.search_radius = SKIN * self.largest_support
         is_even = self.moving_support == self.largest_support
         self.mean: Callable[[float, float], float] = common if is_even else lattice.weighing.mean
-        self.radius = backend.asarray(SKIN * support)
+        self.reach = self._reach_of(lattice, support, fine_depth)
         # how far each particle sees those that move, by the few supports that there are
         sizes, place = np.unique(support, return_inverse=True)
         mean = lattice.weighing.mean
@@ -99,7 +102,33 @@ class BlockLayers:
             "normal_base": ends[:2].sum() * is_up + ends[2:].sum() * is_down,
         }
         self._tables = {name: backend.asarray(values) for name, values in factors.items()}
-        self._tables |= {"V": volume, "radius": self.radius}
+        self._tables |= {"V": volume, "radius": self.reach.radius}
+
+    def _reach_of(
+        self, lattice: StaticParticleData, support: np.ndarray, fine_depth: float
+    ) -> Reach:
+        """How far particles find others: up to a plane the finest see no coarse ones, below it as
+        far as some coarse layer sees them wherever they move; coarse ones rest."""
+        # height and support of each layer, and what coarse ones see of a support
+        _, first, place = np.unique(
+            lattice.layer[: support.size], return_index=True, return_inverse=True
+        )
+        height, size = lattice.position[-1][first], support[first]
+        is_fine = size <= self.moving_support * (1.0 + 1e-9)
+        coarse = np.flatnonzero(~is_fine)
+        mean = lattice.weighing.mean
+        seen = SKIN * np.array([[mean(float(a), float(b)) for b in size[coarse]] for a in size])
+        seen = seen.reshape(size.size, coarse.size)
+
+        # layers that see a particle of each other one, or of the finest above their lowest place
+        low = np.where(is_fine, -fine_depth, height)[:, None]
+        high = np.where(is_fine, inf, height)[:, None]
+        above, below = height[coarse] + seen, height[coarse] - seen
+        is_seen = (above > low) & (below < high)
+        reach = np.maximum(SKIN * size, np.where(is_seen, seen, 0.0).max(axis=1, initial=0.0))
+        plane = float(above[is_fine].max(initial=-inf)) if coarse.size else 0.0
+        asarray = self.backend.asarray
+        return Reach(asarray(SKIN * support), asarray(reach[place]), plane)
 
     def extend(self, ghosts: GhostExtension) -> None:
         """Set `fields` of the particles and the ghosts that were found."""

@@ -127,12 +127,17 @@ class PoolDomain:
 
     def _grow(self, deepest: float) -> None:
         """Let the block hold what lies as deep as that [m]."""
-        # layers down to MELT_MARGIN supports below the melt, and some more
-        needed = int(np.searchsorted(self._bottom, deepest + MELT_MARGIN * self.support)) + 1
+        # no melt flows below the finest layers: those below grow thick, and see far
+        needed, most = self._layers_below(deepest), self._layers_below(self.fine_depth)
         if self.is_box:
-            needed = self._bottom.size
+            needed = most = self._bottom.size
         if needed > self.block_layers:
-            self.block_layers = min(needed + GROWTH, self._bottom.size)
+            self.block_layers = min(needed + GROWTH, most)
+
+    def _layers_below(self, depth: float) -> int:
+        """Layers down to MELT_MARGIN supports below a depth [m]."""
+        lowest = int(np.searchsorted(self._bottom, depth + MELT_MARGIN * self.support)) + 1
+        return min(lowest, self._bottom.size)
 
     def _complete_layers(self, last: int) -> int:
         """Layers all of whose neighbors lie in a block of `last` layers.

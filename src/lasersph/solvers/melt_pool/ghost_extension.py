@@ -13,7 +13,7 @@ import numpy as np
 from lasersph.compute.array_types import Array, Constants
 from lasersph.compute.backend import Backend
 from lasersph.compute.vectors import element
-from lasersph.particles.ghosts import GhostParticles
+from lasersph.particles.ghosts import GhostParticles, Reach
 from lasersph.solvers.melt_pool import ghost_fields
 from lasersph.solvers.melt_pool.face_conditions import GhostRules
 from lasersph.surface.surface import Surface, SurfaceGhosts
@@ -77,14 +77,10 @@ class GhostExtension:
         """Tables by the type of a ghost, for loops."""
         return {name: self.particles.table(one) for name, one in values.items()}
 
-    def find(self, position: Array, radius: Array) -> None:
-        """Find the ghosts of the particles at `position`, shape (d, n) [m].
-
-        Args:
-            radius: (count,) within which particles have ghosts across a tangent [m].
-        """
+    def find(self, position: Array, reach: Reach) -> None:
+        """Find the ghosts of the particles at `position`, shape (d, n) [m], within their reach."""
         particles = self.particles
-        particles.find(position, self.surface.distance, radius)
+        particles.find(position, self.surface.distance, reach)
         self.size, self.source = particles.source.shape[0], particles.source
         if self.place.shape[1] != self.size:
             self.place = self.backend.zeros((self.dimension, self.size))
@@ -184,7 +180,10 @@ class GhostExtension:
 
     def mark_crossing(self) -> None:
         """Set `crosses_surface` of the ghosts that were found."""
-        self.crosses_surface = self.of_type(self._crosses_surface)
+        if self.crosses_surface.shape[0] != self.size:
+            self.crosses_surface = self.backend.zeros(self.size)
+        place, table = {"place": self.particles.ghost_type}, self._crosses_surface
+        self.backend.pointwise(element, place, self.crosses_surface, table=table)
 
     def find_tangent_planes(
         self, given: Mapping[str, Array], heat_face: Array, surface: float

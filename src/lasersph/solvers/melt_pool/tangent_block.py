@@ -14,15 +14,15 @@ import numpy as np
 
 from lasersph.compute.array_types import Array
 from lasersph.compute.vectors import dot
-from lasersph.particles.ghosts import SLANTED
+from lasersph.particles.ghosts import SLANTED, reach_at
 from lasersph.particles.support import common
 from lasersph.solvers.melt_pool.block import Block
 from lasersph.surface.loops import inner_weight, mean_weight
 
 
-def is_near(distance, has_row, radius):
-    """1 for a particle within a radius of the surface whose pairs were found."""
-    return has_row if distance < radius else 0.0 * has_row
+def is_near(x, distance, has_row, radius, reach, plane):
+    """1 for a particle that finds others beyond the surface, and whose pairs were found."""
+    return has_row if distance < reach_at(x, radius, reach, plane) else 0.0 * has_row
 
 
 def flux_length(g_ij, across_j, flux_j, normal_j, plane_j, x_j):
@@ -47,10 +47,12 @@ class TangentBlock(Block):
         ghosts.mark_crossing()
 
         # rows within the support of the surface
-        near = backend.zeros(self.count)
+        near, reach = backend.zeros(self.count), self.layers.reach
         fields = {"distance": backend.head(ghosts.surface.distance, self.count)}
+        fields |= {"x": backend.head(position, self.count)}
+        fields |= {"radius": reach.radius, "reach": reach.reach}
         fields["has_row"] = self.has_row if self.has_row is not None else ghosts.particles.all_rows
-        backend.pointwise(is_near, fields, near, radius=self.layers.search_radius)
+        backend.pointwise(is_near, fields, near, plane=reach.plane)
         rows = backend.rows_where(near, 1.0)
 
         # weights of the way back, with the ghosts in the place of their sources; mean of both ways

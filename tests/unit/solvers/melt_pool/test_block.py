@@ -10,10 +10,12 @@ from flow_boxes import (
     jittered,
     matrix_of,
     place_of,
+    start_from,
 )
 
 from lasersph import compute, load_case
 from lasersph.compute.search import EscapedParticle
+from lasersph.particles.ghosts import Reach
 from lasersph.simulation.recipes import recipe_of
 from lasersph.solvers.melt_pool.block_terms import inner_weight, wall_terms
 
@@ -47,6 +49,55 @@ def test_ghosts_follow_their_sources():
     assert place == pytest.approx(sign * moved[:, source] + offset)
     beyond = np.abs(place - np.array([[0.0], [-0.5]])) > 0.4
     assert beyond.any(axis=0).all()
+
+
+DOTS = (
+    "particles.spacing=100 nm", "particles.coarsest=0.6 um", "domain.depth=2.4 um",
+    "domain.width=2.5 um", "laser.beam.period=2.5 um",
+)  # fmt: skip
+GRADED = {
+    "flat": ("dlip-steel", ("solver.kind=melt-pool", "particles.spacing=100nm")),
+    "moving": ("texture-steel", ("particles.spacing=60nm",)),
+    "rings": ("spot-steel", ("particles.spacing=60nm",)),
+    "space": ("texture-dots-steel", DOTS),
+}
+"""Pools whose layers grow thick below them, in halves and quarters of periods."""
+
+
+def images_of_rows(block):
+    """What the rows that were found see: (row, source, type) of each pair, sorted."""
+    host, pairs, ghosts = block.backend.to_host, block.pairs, block.ghosts.particles
+    start = host(pairs.row_start).astype(int)
+    row = np.repeat(np.arange(start.size - 1), np.diff(start))
+    neighbor = host(pairs.neighbor)[: row.size]
+    sources, types = host(ghosts.source)[neighbor], host(ghosts.ghost_type)[neighbor]
+    found = np.array([row, sources, types], int)
+    return found[:, np.lexsort(found[::-1])]
+
+
+@pytest.mark.parametrize("name", GRADED)
+def test_ghosts_left_out_are_seen_by_nobody(name):
+    """Rows have the pairs that they have where there are more ghosts, of all particles as far from
+    a face as the coarsest sees."""
+    case, settings = GRADED[name]
+    solver = recipe_of(load_case(case, settings)).build(compute.cpu(threads=1))
+    hot = place_of(solver)[-1] > -0.7 * solver.domain.fine_depth
+    curve = solver.body.curve
+    rising = np.concatenate([[True], np.diff(curve.temperature) > 0.0])
+    T = np.where(hot, 2500.0, 1500.0)
+    start_from(solver, np.interp(T, curve.temperature[rising], curve.enthalpy[rising]))
+    block = block_of(solver)
+    block.find_pairs(solver.position, None)
+    found, total = images_of_rows(block), block.ghosts.particles.total
+
+    # as if everybody saw as far as the coarsest
+    layers, backend = block.layers, solver.backend
+    everywhere = backend.zeros(block.count)
+    backend.fill(everywhere, layers.search_radius)
+    layers.reach = Reach(layers.reach.radius, everywhere, np.inf)
+    block.find_pairs(solver.position, None)
+    assert np.array_equal(found, images_of_rows(block))
+    assert block.ghosts.particles.total > 1.05 * total
 
 
 def test_supports_are_whole():

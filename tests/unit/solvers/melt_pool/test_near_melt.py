@@ -89,8 +89,11 @@ def test_depth_and_reach_by_hand():
     assert depth_of_fluid(np.array([0.5, -0.3]), 0.0) == -1.0
     for depth, near, expected in ((0.4, 1.0, 1.0), (0.53, 1.0, 1.0), (0.55, 1.0, 0.0)):
         x = np.array([0.5, -depth])
-        assert within_reach(x, near=near, reach=0.2, melt_depth=0.3) == expected
-        assert within_reach(x, near=0.0, reach=0.2, melt_depth=0.3) == 0.0
+        see = {"reach": 0.2, "melt_depth": 0.3}
+        assert within_reach(x, near=near, near_fine=0.0, finest=0.1, **see) == expected
+        assert within_reach(x, near=0.0, near_fine=near, finest=0.1, **see) == 0.0
+        # the finest by cells of their own
+        assert within_reach(x, near=0.0, near_fine=near, finest=0.2, **see) == expected
 
 
 def test_rows_of_graded_layers():

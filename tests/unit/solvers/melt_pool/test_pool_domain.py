@@ -81,5 +81,5 @@ def test_pressure_does_not_see_the_coarser_layers():
         solver = pool(lambda x, z: (x < 2.2e-6) & (z > -1.25e-6), *settings, slope=1e8)
         go(solver, 2)
         counts.append(solver.iterations["pressure"])
-    assert solver.flow.block.layers.search_radius > 5.0 * solver.flow.block.layers.moving_support
+    assert solver.flow.block.layers.search_radius > 2.5 * solver.flow.block.layers.moving_support
     assert counts[0] == counts[1] > 0
