@@ -69,7 +69,7 @@ def memory_of(solver: SolverSettings, count: float, pairs: float) -> float:
     Args:
         count: particles. pairs: of those that are computed.
     """
-    per_particle, per_neighbor = solver.bytes_per_particle, solver.bytes_of_neighbor
+    per_particle, per_neighbor = solver.bytes_per_particle, solver.bytes_per_neighbor
     return PROGRAM_BYTES + count * per_particle + pairs * per_neighbor
 
 

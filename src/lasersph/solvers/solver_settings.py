@@ -31,11 +31,6 @@ class SolverSettings(Model):
     )
 
     @property
-    def bytes_of_neighbor(self) -> int:
-        """Memory of a neighbor in the dimensions of the run [B]."""
-        return self.bytes_per_neighbor
-
-    @property
     def scheme_text(self) -> str:
         """How steps are taken, for a reader."""
         return "heat implicit"

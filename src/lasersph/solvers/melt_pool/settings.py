@@ -10,10 +10,6 @@ from lasersph.boundaries.flow_conditions import FlowConditions
 from lasersph.input import Acceleration
 from lasersph.solvers.heat_settings import HeatSettings
 
-BYTES_IN_SPACE = 120
-"""Memory of a neighbor in 3-D [B]. Forecast: as measured of a spot with 180 thousand particles,
-5.2 GiB; nothing computed depends on it."""
-
 
 class MeltPoolSettings(HeatSettings):
     """Heat, melting and the incompressible flow of what is molten, or of a closed box."""
@@ -40,11 +36,6 @@ class MeltPoolSettings(HeatSettings):
                 'dimensions = 2, or kind = "conduction" for heat and melting alone'
             )
         return value
-
-    @property
-    def bytes_of_neighbor(self) -> int:
-        """Memory of a neighbor in the dimensions of the run [B]."""
-        return BYTES_IN_SPACE if self.dimensions == 3 else self.bytes_per_neighbor
 
     marangoni: bool = Field(
         default=True, description="whether the gradient of surface tension drives the surface"
