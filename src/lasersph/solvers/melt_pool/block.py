@@ -310,8 +310,8 @@ class Block:
         (depth,) = self.backend.pointwise(depth_of_fluid, fields, (None,), reduce=("max",))
         fields |= {"near": near, "near_fine": self._near_fine.find(position, fluid)}
         fields |= {"reach": self._reach}
-        constants = {"finest": self._finest, "melt_depth": depth}
-        self.backend.pointwise(within_reach, fields, near, **constants)
+        finest = self._finest
+        self.backend.pointwise(within_reach, fields, near, finest=finest, melt_depth=depth)
         return near
 
     def smallest_distance(self, position: Array, rows: Rows) -> tuple[float, ...]:
