@@ -231,30 +231,22 @@ class ConjugateGradient:
 
     def _take_pairs(self) -> None:
         """Use the pairs and weights that the operator has now, as they are read."""
-        operator, used, first = self.operator, self._used, self._first
+        operator, used = self.operator, self._used
         now = (operator.neighbors, operator.weights)
         if not are_same(now, self._bound):
             self._bound = now
             used.neighbors, used.weights = operator.neighbors, self._weights(used.weights)
-            # others than the first, which are then held no longer
-            if not are_same(now, (first.neighbors, first.weights)):
-                self._build_levels()
 
-    def _build_levels(self) -> Multigrid:
-        """Levels of the multigrid, from the first pairs, so that they do not depend on when they
-        are built: when first needed, or when there are other pairs."""
+    def _prepared(self, C: Array, mask: Array, s: float) -> Multigrid | None:
+        """Multigrid for this matrix; levels are built when first needed, from the first pairs,
+        so that they do not depend on when that is."""
         if self._multigrid is None:
             count = self.solution.shape[0]
             self._multigrid = Multigrid(self.backend, self._first, self._used, count)
-            self._first = self._used
-        return self._multigrid
-
-    def _prepared(self, C: Array, mask: Array, s: float) -> Multigrid | None:
-        """Multigrid for this matrix."""
-        multigrid = self._build_levels()
-        if not multigrid.levels:
+            self._first = self._used  # the first pairs are not held any longer
+        if not self._multigrid.levels:
             return None
         if not self._is_set_up:
-            multigrid.prepare(C, mask, s)
+            self._multigrid.prepare(C, mask, s)
             self._is_set_up = True
-        return multigrid
+        return self._multigrid

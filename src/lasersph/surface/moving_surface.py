@@ -137,7 +137,7 @@ class MovingSurface(Surface):
         self._is_overrun = np.zeros(line.count, bool)
         self.segments = SurfaceSegments(line) if dimension == 2 else SurfacePools(line)
         self.loss = MassLoss(line.count, liquid.particle_density, forcing)
-        self._across = PairsAcross(backend, line)
+        self._pairs_across = PairsAcross(backend, line)
         self.values = self._no_values()
         metal = liquid.material
         self._initial_tension = float(metal.surface_tension_at(metal.flow_temperature))
@@ -246,8 +246,8 @@ class MovingSurface(Surface):
         # boundary coefficients of the pressure equation, and the jump that passes on all stress
         relative = self.liquid.relative_viscosity_at(values.T_line)
         ratio = length_ratio(self.segments.slopes)
-        share = self._across.find(molten, members, self.ghosts, neighbors, relative, ratio)
-        self.pressure = self._across.condition
+        share = self._pairs_across.find(molten, members, self.ghosts, neighbors, relative, ratio)
+        self.pressure = self._pairs_across.condition
         shares = backend.asarray(np.pad(share.reshape(line.shape), 2, mode="edge").ravel())
         fields = {"x": now.position, "jump": self.velocity_jump}
         backend.pointwise(loops.passed_on, fields, self.stress_jump, **self._nodes, share=shares)

@@ -51,7 +51,8 @@ class SurfaceLiquid(NamedTuple):
 
 
 class PairsAcross:
-    """What pairs across a line see of it, with arrays that are kept while a block has as many rows.
+    """Condition and share of a line that pairs across it see; arrays are kept while a block has as
+    many rows.
 
     Attributes:
         condition: of the pressure equation.

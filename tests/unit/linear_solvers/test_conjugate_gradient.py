@@ -1,7 +1,6 @@
 """Conjugate gradients against a dense solution."""
 
 from dataclasses import dataclass, field
-from weakref import ref
 
 import numpy as np
 import pytest
@@ -139,28 +138,3 @@ def test_new_weights_are_taken(backend):
     solver.solve(*arrays, 1.0, residual=1e-12, max_iterations=200)
     matrix = np.diag(C + 2.0 * g.sum(axis=1) + boundary_coefficient) - 2.0 * g
     assert backend.to_host(solver.solution) == pytest.approx(np.linalg.solve(matrix, b), rel=1e-9)
-
-
-def test_pairs_are_held_no_longer_than_used(backend):
-    """Where the operator gets other weights, those before are let go, though no multigrid was
-    needed that would be built from them."""
-    g, boundary_coefficient, C, b = system()
-    ring = Ring(backend)
-    arrays = [backend.asarray(v) for v in (b, C, np.ones(COUNT))]
-    weights, a, total = (
-        backend.asarray(v)
-        for v in (
-            np.take_along_axis(g, ring.host, axis=1).ravel(),
-            boundary_coefficient,
-            g.sum(axis=1),
-        )
-    )
-    operator = PairOperator(ring, weights, a, total)
-    solver = ConjugateGradient(backend, operator, COUNT)
-    before = ref(backend.unwrap(weights))
-    del weights
-    for _ in range(2):
-        solver.solve(*arrays, 0.01, residual=1e-12, max_iterations=200)
-        operator.weights = backend.zeros(4 * COUNT)
-    solver.solve(*arrays, 0.01, residual=1e-12, max_iterations=200)
-    assert before() is None

@@ -123,9 +123,10 @@ class Block:
         near = SKIN * float(lattice.weighing.mean(*supports))
         repeats = [period > 0.0 for period in conditions.periods]
         self._near_melt = NearMelt(backend, count, self._bounds, near, repeats=repeats)
-        # the finest particles, most of all, see no further than their own support
+        # the finest particles, most of all, see no further than their own support, and a surface
+        # that moves changes two columns beside melt
         self._finest = float(self.layers.reach_of_melt.min()) * (1.0 + 1e-9)
-        fine = MOVED * self._finest
+        fine = self._finest + 2.0 * self.layers.moving_support / lattice.weighing.ratio
         self._near_fine = NearMelt(backend, count, self._bounds, fine, repeats=repeats)
         # fine layers see less far below the melt than the coarsest, for which the cells are made
         self._reach = backend.asarray(self.layers.reach_of_melt)
