@@ -169,6 +169,7 @@ class Launch:
             array("q", bytes(8 * whole)),
         )
         reduced, blocks = len(compiled.reductions), -(-listed // compiled.block)
+        self._most_blocks = blocks
         self.results = array("d", bytes(8 * reduced))
         self._partial = array(real, bytes(compiled.real.itemsize * reduced * blocks))
         # head of the frame, in the order that `RUN` reads
@@ -234,10 +235,17 @@ class Launch:
         self._bound = arrays
 
     def take_rows(self, rows: np.ndarray) -> None:
-        """Run other rows from now on: (k,) numbers among those that there are, kind "index"."""
+        """Run other rows from now on: (k,) numbers among those that there are, kind "index".
+
+        Raises:
+            ValueError: they are more than there is room for.
+        """
         frame, count = self._frame, rows.size
+        blocks = -(-count // self._block)
+        if self.reductions and blocks > self._most_blocks:
+            raise ValueError(f"{blocks} blocks of rows, room for {self._most_blocks}")
         # blocks and rows; few rows are run by one thread
-        frame[1], frame[3] = -(-count // self._block), count
+        frame[1], frame[3] = blocks, count
         frame[2] = 1 if count * self._per_row < SHARED else self._threads
         frame[HEAD_WORDS] = address(rows)
 

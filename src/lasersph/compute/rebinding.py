@@ -143,11 +143,10 @@ def loop(plan_address, ones_address, frame_address):
         if rows and np.uint64(largest) >= there:
             return
         frame[{HEAD_WORDS}] = word(active + DATA)
-    blocks = (rows + block - ONE) // block
-    if blocks > capacity:
+    if (there + block - ONE) // block > capacity:
         return
     visits = pairs * rows // max(there, ONE) if row_start else rows
-    frame[1], frame[3] = blocks, rows
+    frame[1], frame[3] = (rows + block - ONE) // block, rows
     frame[2] = ONE if visits < np.uint64({SHARED}) else threads
     for k in range(count):
         entry = at_uint64(entries + k * np.uint64({8 * ENTRY}))
@@ -203,7 +202,8 @@ class Rebound:
         for name in signature.tables:
             words += _entry(by_name[name], TABLE, place)
             place += prod(by_name[name].shape[:-1]) + 1
-        # what blocks reduce has room for the rows of the first call
+        # what blocks reduce has room for the rows that there are at the first call; where there
+        # are more now, a recorded launch may come to run them all
         capacity = -(-bound.listed // compiled.block) if compiled.reductions else _MANY
         is_values = call.shape == "pair_values"
         head = [len(words) // ENTRY, compiled.block, threads, capacity, is_values]

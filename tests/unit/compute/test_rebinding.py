@@ -109,6 +109,27 @@ def test_a_graph_bound_anew_lets_go_of_the_arrays_before():
         gc.enable()
 
 
+class ChosenSum(Scaling):
+    """The sum over some rows of an array that is replaced, as a graph."""
+
+    @graph
+    def add(self, rows):
+        """Sum of twice the elements of these rows."""
+        self.backend.pointwise(doubled, {"a": self.a}, (None,), rows=rows, reduce=("sum",))
+
+
+def test_a_launch_bound_again_has_room_for_all_rows():
+    """Few rows of a longer array come first, then all: what their blocks reduce has room, too.
+    A melt pool that grew in a larger block wrote beyond it."""
+    backend = compute.cpu(threads=1)
+    chosen = ChosenSum(backend)
+    for size in (1_000, 100_000):
+        chosen.renew(np.ones(size))
+        for count in (10, 10, size):
+            rows = backend.asarray(np.arange(count), "index")
+            assert chosen.add(rows) == (2.0 * count,)
+
+
 def test_a_graph_of_other_kinds_is_bound_anew():
     """Another function, and arrays of another type."""
     scaling = Scaling(compute.cpu(threads=1))
