@@ -6,7 +6,8 @@ margin of resting layers below the moving rows belongs to the block, so that eve
 finds all its neighbors there.
 
 What a particle has of its layer is in `block_layers`, what a ghost has of its source in
-`ghost_extension`, what the faces between them mean to heat in `block_walls`; here are the pairs.
+`ghost_extension`, what the faces between them mean to heat in `block_walls`, who may have melt
+among its neighbors in `near_melt`; here are the pairs.
 Distances, kernels and weights of the pairs are computed once for each set of positions, and kept:
 root and divisions take most of the time of a sum over pairs.
 """
@@ -26,7 +27,7 @@ from lasersph.compute.vectors import element
 from lasersph.particles.ghosts import GhostParticles, ghost_types_of
 from lasersph.particles.neighbor_lists import Box, NeighborList, find_neighbors
 from lasersph.physics.viscosity import viscous_weight
-from lasersph.solvers.melt_pool.block_layers import SKIN, BlockLayers, StaticParticleData
+from lasersph.solvers.melt_pool.block_layers import BlockLayers, StaticParticleData
 from lasersph.solvers.melt_pool.block_walls import BlockWalls
 from lasersph.solvers.melt_pool.face_conditions import FaceConditions
 from lasersph.solvers.melt_pool.ghost_extension import GhostExtension
@@ -35,23 +36,6 @@ from lasersph.solvers.melt_pool.pair_geometry import PairGeometry, distance_squa
 from lasersph.sph.correction import bounded_inverse, moment_term
 from lasersph.surface.columns import product
 from lasersph.surface.surface import Surface
-
-
-def depth_of_fluid(x, fluid):
-    """Depth of a fluid particle below z = 0 [m]; far above it where it is none."""
-    return -x[-1] if fluid > 0.0 else -1.0
-
-
-def within_reach(x, near, near_fine, reach, finest, melt_depth):
-    """1 where a particle may have a fluid neighbor: near one by the cells, those of the finest
-    particles where it sees no further, and not deeper below the melt than it sees [m]."""
-    by_cells = near_fine if reach <= finest else near
-    return by_cells if -x[-1] - melt_depth < MOVED * reach else 0.0 * near
-
-
-MOVED = 1.2
-"""Distance within which a particle looks for melt over that at which it sees some. Geometry: what
-moves in a step."""
 
 
 class Block:
@@ -69,7 +53,7 @@ class Block:
 
     Attributes:
         layers: volumes, supports and factors. ghosts: fields of the particles with their ghosts.
-            walls: what faces mean to heat.
+            walls: what faces mean to heat. near_melt: who may see those that flow.
         pairs: NeighborList with the rows of the block, among all M.
         weights: (pairs,) g_ij [1] at the last positions. gradient: (d, pairs) G_ij = V_j grad W_ij
             there [1/m]. kernel: (pairs,) V_j W_ij where the pairs were found [1]. viscous_weights:
@@ -116,21 +100,16 @@ class Block:
             backend, conditions, rules, self.ghosts, potential=potential, enthalpy=enthalpy
         )
 
-        # the box around the block, and how far from the melt particles are looked for
+        # the box around the block, and who in it may see melt
         *sides, z = conditions.box
         self._bounds = (*sides, (max(z[0], bottom), surface.top))
-        supports = self.layers.moving_support, self.layers.largest_support
-        near = SKIN * float(lattice.weighing.mean(*supports))
-        repeats = [period > 0.0 for period in conditions.periods]
-        self._near_melt = NearMelt(backend, count, self._bounds, near, repeats=repeats)
-        # the finest particles, most of all, see no further than their own support, and a surface
-        # that moves changes two columns beside melt
-        self._finest = float(self.layers.reach_of_melt.min()) * (1.0 + 1e-9)
-        fine = self._finest + 2.0 * self.layers.moving_support / lattice.weighing.ratio
-        self._near_fine = NearMelt(backend, count, self._bounds, fine, repeats=repeats)
-        # fine layers see less far below the melt than the coarsest, for which the cells are made
-        self._reach = backend.asarray(self.layers.reach_of_melt)
-        self._is_graded = SKIN * self.layers.moving_support < near
+        self.near_melt = NearMelt(
+            backend,
+            self.layers.reach_of_melt,
+            self.layers.moving_support / lattice.weighing.ratio,
+            self._bounds,
+            repeats=[period > 0.0 for period in conditions.periods],
+        )
 
         # pairs, of which there are none yet
         dimension, nothing = self.ghosts.dimension, backend.zeros(0, "index")
@@ -292,28 +271,6 @@ class Block:
     def without_ghosts(self) -> NeighborList:
         """The pairs with every ghost replaced by its source."""
         return self.pairs.with_neighbors(self.backend, self._folded)
-
-    def find_near_fluid(self, position: Array, fluid: Array) -> Array:
-        """(count,) 1 for particles within the support of a fluid one, or nearly; see `near_melt`.
-
-        Args:
-            position: (d, n) [m]. fluid: (n,) 1 where a particle flows or did so one step ago.
-
-        Raises:
-            EscapedParticle: a position is not finite or beyond the faces.
-        """
-        near = self._near_melt.find(position, fluid)
-        if not self._is_graded:
-            return near
-        # rows deeper below the deepest melt than they see are not
-        head = self.backend.head
-        fields = {"x": head(position, self.count), "fluid": head(fluid, self.count)}
-        (depth,) = self.backend.pointwise(depth_of_fluid, fields, (None,), reduce=("max",))
-        fields |= {"near": near, "near_fine": self._near_fine.find(position, fluid)}
-        fields |= {"reach": self._reach}
-        finest = self._finest
-        self.backend.pointwise(within_reach, fields, near, finest=finest, melt_depth=depth)
-        return near
 
     def smallest_distance(self, position: Array, rows: Rows) -> tuple[float, ...]:
         """Square of the smallest distance from one of `rows` to another particle or ghost [m^2]."""

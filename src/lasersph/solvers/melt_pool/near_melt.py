@@ -1,4 +1,8 @@
-"""`NearMelt`: which particles of a block are within the support of a fluid one, or nearly so.
+"""`NearMelt`: which particles of a block may have a fluid one as a neighbor.
+
+Pairs are found anew for them alone. A particle sees as far as the mean support of itself and of the
+finest, which are all that flow. It is not near melt where it lies deeper than that below all of it,
+nor where no cell around it holds a fluid particle.
 
 Particles and their neighbors lie in cells, as wide as the search radius or wider, that touch each
 other, corners included. A cell is marked where it or one that touches it holds a fluid particle;
@@ -16,6 +20,24 @@ from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
 from lasersph.compute.cell_grid import CellGrid, cell_number
 from lasersph.compute.vectors import element
+
+MOVED = 1.2
+"""Distance within which a particle looks for melt over that at which it sees some. Geometry: what
+moves in a step."""
+COLUMNS = 2.0
+"""Columns beside the melt in which a surface that moves changes."""
+
+
+def depth_of_fluid(x, fluid):
+    """Depth of a fluid particle below z = 0 [m]; far above it where it is none."""
+    return -x[-1] if fluid > 0.0 else -1.0
+
+
+def within_reach(x, near, near_fine, reach, finest, melt_depth):
+    """1 where a particle may have a fluid neighbor: near one by the cells, those of the finest
+    particles where it sees no further, and not deeper below the melt than it sees [m]."""
+    by_cells = near_fine if reach <= finest else near
+    return by_cells if -x[-1] - melt_depth < MOVED * reach else 0.0 * near
 
 
 def cell_of(x, fluid, least, most, count, low, inverse, shape, repeats):
@@ -41,6 +63,57 @@ def near_fluid(k, around, fluid_count):
 
 
 class NearMelt:
+    """Who may have fluid neighbors, among the first particles.
+
+    Args:
+        reach: (count,) host array, within which each sees those that move [m]. column: width of the
+            columns of the finest [m]. bounds, repeats: see `MeltCells`.
+    """
+
+    def __init__(
+        self,
+        backend: Backend,
+        reach: np.ndarray,
+        column: float,
+        bounds: Sequence[tuple[float, float]],
+        *,
+        repeats: Sequence[bool],
+    ) -> None:
+        self.backend, self.count = backend, reach.size
+        finest, widest = float(reach.min()), float(reach.max())
+        self._is_graded = finest < widest
+        # round-off makes no particle a coarse one
+        self._finest = finest * (1.0 + 1e-9)
+        fine = self._finest + COLUMNS * column
+        self._cells, self._fine_cells = (
+            MeltCells(backend, reach.size, bounds, radius, repeats=repeats)
+            for radius in (widest, fine)
+        )
+        self._reach = backend.asarray(reach)
+
+    def find(self, position: Array, fluid: Array) -> Array:
+        """(count,) 1 for particles that may have a fluid neighbor, else 0.
+
+        Args:
+            position: (d, n) [m]. fluid: (n,) 1 where a particle flows or did so one step ago.
+
+        Raises:
+            EscapedParticle: a position is not finite or beyond the faces.
+        """
+        # by cells as wide as the coarsest see
+        backend, near = self.backend, self._cells.find(position, fluid)
+        if not self._is_graded:
+            return near
+        # by cells of the finest, most of all, and by the deepest melt
+        fine, x = self._fine_cells.find(position, fluid), backend.head(position, self.count)
+        fields = {"x": x, "fluid": backend.head(fluid, self.count)}
+        (depth,) = backend.pointwise(depth_of_fluid, fields, (None,), reduce=("max",))
+        fields |= {"near": near, "near_fine": fine, "reach": self._reach}
+        backend.pointwise(within_reach, fields, near, finest=self._finest, melt_depth=depth)
+        return near
+
+
+class MeltCells:
     """Cells around the first `count` particles.
 
     Args:

@@ -342,8 +342,8 @@ class MeltPool:
         """(count,) 1 for rows whose neighbors move now, or have just come to rest; None for all."""
         if self.kinds.is_box:
             return None
-        now = block.find_near_fluid(position, self.kinds.fluid)
-        fields = {"a": now, "b": block.find_near_fluid(self.position, self.kinds.before)}
+        now = block.near_melt.find(position, self.kinds.fluid)
+        fields = {"a": now, "b": block.near_melt.find(self.position, self.kinds.before)}
         self.backend.pointwise(either, fields, now)
         return self.domain.keep_resting(now)
 

@@ -5,8 +5,12 @@ import pytest
 from flow_boxes import block_of, place_of, pool
 
 from lasersph.compute.search import EscapedParticle
-from lasersph.solvers.melt_pool.block import depth_of_fluid, within_reach
-from lasersph.solvers.melt_pool.near_melt import NearMelt
+from lasersph.solvers.melt_pool.near_melt import (
+    MeltCells,
+    NearMelt,
+    depth_of_fluid,
+    within_reach,
+)
 
 BOUNDS = ((0.0, 9.0), (-1.0, 0.0))
 RADIUS = 0.3
@@ -15,7 +19,7 @@ RADIUS = 0.3
 def found(backend, position, fluid, **settings):
     """Host array of who is near."""
     options = {"repeats": (False, False)} | settings
-    cells = NearMelt(backend, position.shape[1], BOUNDS, RADIUS, **options)
+    cells = MeltCells(backend, position.shape[1], BOUNDS, RADIUS, **options)
     place, flows = backend.asarray(position), backend.asarray(np.array(fluid, float))
     return backend.to_host(cells.find(place, flows)) > 0.0
 
@@ -72,7 +76,7 @@ def test_radius_on_a_line_and_in_space(backend, dimension, is_periodic):
     """Whoever is closer than the radius is found, around the ends of every axis that repeats."""
     random, repeats = np.random.default_rng(8), (is_periodic,) * dimension
     position, fluid = random.uniform(0.0, 3.0, (dimension, 60)), np.arange(60) < 2
-    cells = NearMelt(backend, 60, ((0.0, 3.0),) * dimension, RADIUS, repeats=repeats)
+    cells = MeltCells(backend, 60, ((0.0, 3.0),) * dimension, RADIUS, repeats=repeats)
     given = (position, np.array(fluid, float))
     near = backend.to_host(cells.find(*map(backend.asarray, given))) > 0.0
     apart = np.abs(position[:, :, None] - position[:, None, fluid])
@@ -101,10 +105,21 @@ def test_rows_of_graded_layers():
     solver = pool(lambda x, z: (np.abs(x) < 6e-7) & (z > -4e-7))
     block = block_of(solver)
     host, fluid = solver.backend.to_host, solver.kinds.fluid
-    near = host(block.find_near_fluid(solver.position, fluid)) > 0.0
+    near = host(block.near_melt.find(solver.position, fluid)) > 0.0
     place, reach = place_of(solver)[:, : block.count], block.layers.reach_of_melt
     flows = host(fluid)[: block.count] > 0.0
     apart = np.linalg.norm(place[:, :, None] - place[:, None, flows], axis=0)
     assert flows.any() and near[(apart < reach[:, None]).any(axis=1)].all()
     deep = place[1] < place[1, flows].min() - 1.21 * reach
     assert deep.any() and not near[deep].any()
+
+
+def test_finest_particles_see_two_columns_further(backend):
+    """The finest are near melt up to two columns beyond their reach, where a surface that moves
+    changes; coarse ones, to whom melt lies as far, by their own reach."""
+    column, reach = 0.1, np.array([0.3, 0.3, 0.3, 0.9])
+    melt, beside, far, coarse = (2.99, -0.05), (3.31, -0.05), (4.3, -0.05), (3.8, -0.8)
+    position = backend.asarray(np.array([melt, beside, far, coarse]).T)
+    near = NearMelt(backend, reach, column, BOUNDS, repeats=(False, False))
+    fluid = backend.asarray([1.0, 0.0, 0.0, 0.0])
+    assert backend.to_host(near.find(position, fluid)).tolist() == [1.0, 1.0, 0.0, 1.0]
