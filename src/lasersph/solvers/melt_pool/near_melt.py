@@ -25,7 +25,8 @@ MOVED = 1.2
 """Distance within which a particle looks for melt over that at which it sees some. Geometry: what
 moves in a step."""
 COLUMNS = 2.0
-"""Columns beside the melt in which a surface that moves changes."""
+"""Columns beside the melt in which a surface that moves changes. Geometry: the slope of a column is
+that between its neighbors, and its curvature that between theirs."""
 
 
 def depth_of_fluid(x, fluid):
