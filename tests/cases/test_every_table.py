@@ -2,19 +2,15 @@
 
 from __future__ import annotations
 
-import hashlib
 from functools import cache
 
-import numpy as np
 import pytest
+from first_steps import FirstSteps, are_other_steps, steps_of
 from key_trials import BASES, BOX, EJECTION, FILM, LIT, PROPERTIES, TRIALS, WORDS
-from test_every_key import END, SAME_NUMBERS, VALUES
+from test_every_key import SAME_NUMBERS, VALUES
 
-from lasersph import compute
 from lasersph.case import Case, load_case
 from lasersph.input import CaseError
-from lasersph.simulation.recipes import recipe_of
-from lasersph.solvers.step_control import choose_step
 
 STEPS = 3
 LATER = (
@@ -110,38 +106,6 @@ def bases(tmp_path_factory) -> dict:
     return lit | {"box": ("natural-convection", BOX), "film": ("moving-film", FILM)}
 
 
-COMPUTED: dict[tuple[str, int], str] = {}
-"""Words of cases that were computed before, by hash and steps: most keys are tried beside the same
-settings."""
-
-
-def computed(case: Case, steps: int) -> str:
-    """Layers, limits, times, energies and fields of the first steps, as one word."""
-    known = case.hash(), steps
-    if known not in COMPUTED:
-        COMPUTED[known] = compute_steps(case, steps)
-    return COMPUTED[known]
-
-
-def compute_steps(case: Case, steps: int) -> str:
-    """See `computed`."""
-    recipe = recipe_of(case)
-    solver, layers = recipe.build(compute.cpu(threads=1)), recipe.layers
-    found = hashlib.sha256(repr((layers.columns.tolist(), layers.thickness.tolist())).encode())
-    for _ in range(steps):
-        if solver.state.time >= END * case.time.end:
-            break
-        limits = solver.time_step_limits()
-        solver.step(choose_step(limits)[1])
-        state = solver.state
-        found.update(repr((sorted(limits.items()), state.time, state.energy)).encode())
-    for field in solver.particles:
-        found.update(
-            np.ascontiguousarray(solver.backend.host_view(solver.particles[field])).tobytes()
-        )
-    return found.hexdigest()
-
-
 @cache
 def loaded(name: str, settings: tuple[str, ...]) -> Case | None:
     """A small case with settings, None where it is refused: most keys are tried beside the same."""
@@ -154,13 +118,14 @@ def loaded(name: str, settings: tuple[str, ...]) -> Case | None:
 def outcome(base, key: str, trial, steps: int) -> bool | None:
     """Whether a value changes what is computed; None where it, or what is beside it, is refused."""
     (name, settings), (value, beside) = base, trial
-    plain = loaded(name, (*settings, *beside))
+    around = (*settings, *beside)
+    plain = loaded(name, around)
     if plain is None:
         return None
-    changed = loaded(name, (*settings, *beside, f"{key.replace('[]', '[1]')}={value}"))
+    changed = loaded(name, (*around, f"{key.replace('[]', '[1]')}={value}"))
     if changed is None or plain.hash() == changed.hash():
         return None
-    return computed(plain, steps) != computed(changed, steps)
+    return are_other_steps(steps_of(name, around), FirstSteps(changed), steps)
 
 
 def is_tried_in(label: str, key: str) -> bool:
