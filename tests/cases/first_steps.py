@@ -29,7 +29,7 @@ class FirstSteps:
         self._words = [repr((layers.columns.tolist(), layers.thickness.tolist()))]
 
     def word(self, step: int) -> str:
-        """Limits, time, energies and fields after a step, the last one at most; layers of step 0."""
+        """Limits, times, energies and fields after a step, the last one at most; 0: the layers."""
         while len(self._words) <= step and self._solver.state.time < self._end:
             self._words.append(self._advance())
         return self._words[min(step, len(self._words) - 1)]
