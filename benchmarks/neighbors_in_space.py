@@ -19,8 +19,10 @@ from time import process_time
 import numpy as np
 
 from lasersph import load_case, run
-from lasersph.analytic.liquid_film import Drive, LiquidFilm
+from lasersph.analytic.liquid_film import Drive
 from lasersph.output import Run
+from lasersph.validation.dots_film.rows import PULSE, WAVE, film_of, harmonic
+from lasersph.validation.study import Study
 
 CHOICES = (
     "quintic-spline:3.75", "quintic-spline:3.4", "quintic-spline:3.1", "quintic-spline:2.8",
@@ -28,13 +30,8 @@ CHOICES = (
     "cubic-spline:3.0", "cubic-spline:2.6",
 )  # fmt: skip
 """Kernel and support over the spacing."""
-FILM = (
-    "solver.dimensions=3", "domain.extent=quarter", "solver.flow.front=symmetry",
-    "solver.flow.back=symmetry", "boundaries.surface_temperature=2000 K", "domain.width=5.05 um",
-    "domain.breadth=5.05 um", "boundaries.surface_temperature_wave.period=5.05 um",
-    "boundaries.surface_temperature_wave.period_y=5.05 um", "time.end=20 ns",
-)  # fmt: skip
-"""The film of `dots-film`, by the case `moving-film`."""
+PERIOD = 5.05
+"""Of the film along x and y [um], as in `dots-film`."""
 
 
 def neighbors_of(ratio: float) -> int:
@@ -52,24 +49,20 @@ def settings_of(choice: str) -> list[str]:
 
 def film_error(choice: str, spacing: str, out: Path) -> tuple[float, float]:
     """Largest deviation of the harmonic over the largest height, and processor time [s]."""
-    case = load_case("moving-film", [*FILM, f"particles.spacing={spacing}", *settings_of(choice)])
+    study, length = Study("dots-film", out), f"{PERIOD} um"
+    sides = (f"domain.{side}={length}" for side in ("width", "breadth"))
+    periods = (f"{WAVE}.{name}={length}" for name in ("period", "period_y"))
+    choices = (f"particles.spacing={spacing}", f"time.end={PULSE} s", *settings_of(choice))
+    case = load_case(study.plan.case, [*study.plan.settings, *sides, *periods, *choices])
     begin = process_time()
     run(case, out, threads=1, warn=False, anyway=True)
-    seconds, history = process_time() - begin, Run(out).history
+    seconds = process_time() - begin
 
     # the same film, exactly
-    metal, cold = case.material, 2000.0
-    film = LiquidFilm(
-        case.domain.depth,
-        5.05e-6 / np.sqrt(2.0),
-        metal.density_reference,
-        float(metal.viscosity_at(cold)),
-        float(metal.at("surface_tension", cold)),
-        float(metal.at("surface_tension_slope", cold)),
-    )
-    times = 1e-9 * np.array([5.0, 10.0, 15.0, 20.0])
-    exact = film.amplitude(times, Drive(temperature=100.0, end=20e-9))
-    found = np.interp(times, history["time_s"], history["topography.first_harmonic_m"])
+    times = PULSE * np.array([0.25, 0.5, 0.75, 1.0])
+    film = film_of(study, [PERIOD, PERIOD])
+    exact = film.amplitude(times, Drive(temperature=100.0, end=PULSE))
+    found = harmonic(Run(out), times)
     return float(np.max(np.abs(found - exact)) / np.max(np.abs(exact))), seconds
 
 
