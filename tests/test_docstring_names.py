@@ -8,9 +8,7 @@ of a case file or a verb of the command line.
 
 import ast
 import importlib
-import io
 import re
-import tokenize
 from functools import cache
 from pathlib import Path
 
@@ -19,6 +17,7 @@ SOURCE = ROOT / "src" / "lasersph"
 FILES = sorted(SOURCE.rglob("*.py"))
 ROOMS = {folder.name for folder in SOURCE.iterdir() if folder.is_dir()}
 BACKTICKS = re.compile(r"(?<!`)`([^`\n]+)`(?!`)")
+COMMENT = re.compile(r"(?:^ *|  )#.*$", re.MULTILINE)
 WORD = re.compile(r"[A-Za-z_]\w*")
 PLACEHOLDER = re.compile(r"name_*[ij01]")
 """Stands for any field of a pair function: `name_i`, `name__0`."""
@@ -29,23 +28,19 @@ EXTERNAL = {"PyArrayObject_fields"}
 @cache
 def prose_and_words(text):
     """Docstrings and comments of a source text, and every word of its code."""
-    doc_lines = set()
-    prose = []
+    lines, prose = text.splitlines(), []
+    # docstrings, and texts that stand alone below a name
     for node in ast.walk(ast.parse(text)):
         match node:
             case ast.Expr(value=ast.Constant(value=str(found))):
                 prose.append(found)
-                doc_lines.add((node.lineno, node.col_offset))
-    words = set()
-    for token in tokenize.generate_tokens(io.StringIO(text).readline):
-        if token.type == tokenize.COMMENT:
-            prose.append(token.string)
-        elif token.type == tokenize.NAME or (
-            token.type in (tokenize.STRING, getattr(tokenize, "FSTRING_MIDDLE", -1))
-            and token.start not in doc_lines
-        ):
-            words.update(WORD.findall(token.string))
-    return prose, words
+                assert node.end_lineno is not None
+                for k in range(node.lineno - 1, node.end_lineno):
+                    lines[k] = ""
+    # comments, on lines of their own or two blanks behind the code
+    code = "\n".join(lines)
+    prose += COMMENT.findall(code)
+    return prose, set(WORD.findall(COMMENT.sub("", code)))
 
 
 @cache
