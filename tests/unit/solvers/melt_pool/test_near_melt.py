@@ -5,12 +5,7 @@ import pytest
 from flow_boxes import block_of, place_of, pool
 
 from lasersph.compute.search import EscapedParticle
-from lasersph.solvers.melt_pool.near_melt import (
-    MeltCells,
-    NearMelt,
-    depth_of_fluid,
-    within_reach,
-)
+from lasersph.solvers.melt_pool.near_melt import NearMelt, within_reach
 
 BOUNDS = ((0.0, 9.0), (-1.0, 0.0))
 RADIUS = 0.3
@@ -19,7 +14,7 @@ RADIUS = 0.3
 def found(backend, position, fluid, **settings):
     """Host array of who is near."""
     options = {"repeats": (False, False)} | settings
-    cells = MeltCells(backend, position.shape[1], BOUNDS, RADIUS, **options)
+    cells = NearMelt(backend, np.full(position.shape[1], RADIUS), 0.0, BOUNDS, **options)
     place, flows = backend.asarray(position), backend.asarray(np.array(fluid, float))
     return backend.to_host(cells.find(place, flows)) > 0.0
 
@@ -73,15 +68,17 @@ def test_escaped(backend, wrong):
 @pytest.mark.parametrize("dimension", [1, 3])
 @pytest.mark.parametrize("is_periodic", [False, True])
 def test_radius_on_a_line_and_in_space(backend, dimension, is_periodic):
-    """Whoever is closer than the radius is found, around the ends of every axis that repeats."""
-    random, repeats = np.random.default_rng(8), (is_periodic,) * dimension
+    """Whoever is closer than the radius is found, around the ends of every axis that repeats; z
+    never does."""
+    random, repeats = np.random.default_rng(8), (is_periodic,) * (dimension - 1) + (False,)
     position, fluid = random.uniform(0.0, 3.0, (dimension, 60)), np.arange(60) < 2
-    cells = MeltCells(backend, 60, ((0.0, 3.0),) * dimension, RADIUS, repeats=repeats)
+    bounds = ((0.0, 3.0),) * dimension
+    cells = NearMelt(backend, np.full(60, RADIUS), 0.0, bounds, repeats=repeats)
     given = (position, np.array(fluid, float))
     near = backend.to_host(cells.find(*map(backend.asarray, given))) > 0.0
     apart = np.abs(position[:, :, None] - position[:, None, fluid])
     if is_periodic:
-        apart = np.minimum(apart, 3.0 - apart)
+        apart[:-1] = np.minimum(apart[:-1], 3.0 - apart[:-1])
     assert near[(np.linalg.norm(apart, axis=0) < RADIUS).any(axis=1)].all()
     assert not near[(apart.max(axis=0) > 2.5 * RADIUS).all(axis=1)].any()
     assert near[fluid].all() and not near.all()
@@ -89,15 +86,15 @@ def test_radius_on_a_line_and_in_space(backend, dimension, is_periodic):
 
 def test_depth_and_reach_by_hand():
     """Down to what a particle sees below the deepest melt, and a fifth more."""
-    assert depth_of_fluid(np.array([0.5, -0.3]), 1.0) == 0.3
-    assert depth_of_fluid(np.array([0.5, -0.3]), 0.0) == -1.0
+    cells = {"cell": 0, "fine_cell": 1, "melt_depth": 0.3, "reach": 0.2}
     for depth, near, expected in ((0.4, 1.0, 1.0), (0.53, 1.0, 1.0), (0.55, 1.0, 0.0)):
-        x = np.array([0.5, -depth])
-        see = {"reach": 0.2, "melt_depth": 0.3}
-        assert within_reach(x, near=near, near_fine=0.0, finest=0.1, **see) == expected
-        assert within_reach(x, near=0.0, near_fine=near, finest=0.1, **see) == 0.0
+        x, no = np.array([0.5, -depth]), (0.0, 0.0)
+        marked = {"marks": (near, 0.0), "fine_marks": no, **cells}
+        assert within_reach(x, finest=0.1, **marked) == expected
         # the finest by cells of their own
-        assert within_reach(x, near=0.0, near_fine=near, finest=0.2, **see) == expected
+        marked = {"marks": no, "fine_marks": (0.0, near), **cells}
+        assert within_reach(x, finest=0.1, **marked) == 0.0
+        assert within_reach(x, finest=0.2, **marked) == expected
 
 
 def test_rows_of_graded_layers():
