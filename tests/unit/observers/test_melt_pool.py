@@ -168,7 +168,7 @@ def test_depth_of_fluid_metal_converges_and_never_jumps(melting_range):
     """The error at f_m = 1 falls with the spacing, and the depth creeps with the front."""
     errors = []
     for cells in (10, 20, 40):
-        fronts = np.linspace(40e-9, 60e-9, 20 * cells + 1)  # 1/100 of a cell each
+        fronts = np.linspace(40e-9, 60e-9, 100 * cells + 1)  # 1/500 of a cell each
         depths = np.array(
             [melt_to(front, cells, melting_range)["melt_depth_m"] for front in fronts]
         )
