@@ -151,7 +151,11 @@ class _MeltCells:
         self._marks = backend.zeros(self.grid.count)
 
     def mark(self, fluid_cell: Rows) -> Array:
-        """(cells,) 1 where a cell or one that touches it holds one of those in some cells."""
+        """(cells,) 1 for cells that hold a fluid particle or touch one that does.
+
+        Args:
+            fluid_cell: (count,) cell of each fluid particle, the number behind the last of others.
+        """
         # no fluid particle is in the cell of the number `count`, which stands for those outside
         backend, count = self.backend, self.grid.count
         fluid_count = backend.count_by_key(fluid_cell, count + 2)
