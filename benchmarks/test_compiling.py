@@ -57,6 +57,7 @@ def loops(monkeypatch, tmp_path):
     backend = compute.cpu(threads=1)
     one, vector = backend.asarray([1.0]), backend.zeros((3, 1))
     neighbors: Any = SimpleNamespace(
+        row_end=None,
         row_start=backend.zeros(2, "offset"), neighbor=backend.zeros(0, "index"),
         position=vector, support=one, kernel=setting.Wendland(),
         mean=functions.arithmetic_mean, period=(0.0, 0.0, 0.0),

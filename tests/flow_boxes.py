@@ -93,12 +93,21 @@ def jittered(solver, share=0.2, seed=1):
     return place + solver.domain.spacing * shift
 
 
+def places_of(backend, neighbors):
+    """Row of each pair of a list, and its place there."""
+    start = backend.to_host(neighbors.row_start).astype(np.int64)
+    end = start[1:] if neighbors.row_end is None else backend.to_host(neighbors.row_end)
+    length = end.astype(np.int64) - start[:-1]
+    row = np.repeat(np.arange(length.size), length)
+    within = np.arange(row.size) - np.repeat(np.cumsum(length) - length, length)
+    return row, start[row] + within
+
+
 def matrix_of(backend, neighbors, weights, count):
     """Dense sum of the weights of all pairs (i, j)."""
-    start = backend.to_host(neighbors.row_start).astype(np.int64)
-    row = np.repeat(np.arange(start.size - 1), np.diff(start))
+    row, place = places_of(backend, neighbors)
     matrix = np.zeros((count, count))
-    neighbor, g = (backend.to_host(one)[: row.size] for one in (neighbors.neighbor, weights))
+    neighbor, g = (backend.to_host(one)[place] for one in (neighbors.neighbor, weights))
     np.add.at(matrix, (row, neighbor), g)
     return matrix
 

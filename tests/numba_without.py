@@ -23,15 +23,16 @@ def forget_entry():
 
 
 def _loops(total):
-    """One loop of each kind: sums over pairs, reductions, a search, a splice, sweeps."""
+    """One loop of each kind: sums over pairs, reductions, a search, renewed rows, sweeps."""
     from lasersph import compute
-    from lasersph.compute import key_order, search, splice, sweeps
+    from lasersph.compute import key_order, row_renewal, search, sweeps
 
     rng = np.random.default_rng(3)
     position, count = rng.random((2, 6000)), 6000
     backend, support = compute.cpu(threads=2), np.full(count, 0.05)
     found = search.neighbor_list(backend, position, support, count, mean=_mean)
     neighbors = SimpleNamespace(
+        row_end=None,
         row_start=found[0], neighbor=found[1], position=position, support=support,
         kernel=None, mean=_mean, period=(),
     )  # fmt: skip
@@ -42,8 +43,10 @@ def _loops(total):
     total += [*found, out, sums, backend.pointwise(_product, {"a": long}, None, reduce="sum")]
     weights = backend.zeros(found[1].size)
     backend.pair_values(_weight, neighbors, {}, weights)
-    rows = splice.PairRows(*found, weights)
-    total += splice.splice(backend, rows, (T > 0.5).astype(np.uint8), rows)
+    rows = row_renewal.PairRows(*found, weights)
+    renewed = row_renewal.RenewedRows(backend, rows)
+    renewed.renew(key_order.rows_where((T > 0.5).astype(np.uint8), 1.0), rows)
+    total += [renewed.row_start, renewed.row_end, *renewed.stored]
     total += key_order.rows_by_key((T * 7).astype(np.uint32), 7)
     order = np.lexsort((position[1], np.floor(position[0] * 60)))
     sorted_position = np.ascontiguousarray(position[:, order])

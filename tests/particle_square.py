@@ -36,6 +36,7 @@ def system(backend, side, *, boundary_coefficient=0.0):
     count = side * side
     start = np.concatenate([[0], np.cumsum(np.bincount(row, minlength=count))])
     neighbors = SimpleNamespace(
+        row_end=None,
         row_start=backend.asarray(start, "offset"),
         neighbor=backend.asarray(column, "index"),
         position=backend.asarray(position),

@@ -48,6 +48,7 @@ class Scattered:
         """Folded list."""
         start = np.concatenate([[0], np.cumsum(np.bincount(self.i, minlength=self.count))])
         return SimpleNamespace(
+            row_end=None,
             row_start=backend.asarray(start, "offset"),
             neighbor=backend.asarray(self.j, "index"),
             position=backend.asarray(self.position),

@@ -18,8 +18,9 @@ from lasersph.compute import cuda_device
 
 TESTS, ASSEMBLY = Path(__file__).parent, "assembly.json"
 FILES = ("unit/compute/test_strict_arrays.py", "unit/compute/test_pair_loops.py",
-         "unit/compute/test_search.py", "unit/compute/test_splice.py", "unit/compute/test_graph.py",
-         "unit/compute/test_looking.py", "unit/compute/test_tables.py",
+         "unit/compute/test_search.py", "unit/compute/test_row_renewal.py",
+         "unit/compute/test_graph.py", "unit/compute/test_looking.py",
+         "unit/compute/test_tables.py",
          "unit/particles/test_ghosts.py", "unit/solvers/melt_pool/test_near_melt.py",
          "unit/compute/test_cell_grid.py", "unit/particles/test_relative_displacement.py",
          "unit/linear_solvers/test_components.py", "unit/linear_solvers/test_grid_levels.py",

@@ -83,7 +83,7 @@ def bicgstab(backend: Backend, neighbors: NeighborList, entries, diagonal) -> Ho
 def multigrid_cycle(backend: Backend, operator: PairOperator) -> HotLoop | None:
     """Preconditioner of heat beside Jacobi's; None where particles are too few."""
     count = operator.boundary_coefficient.shape[0]
-    multigrid = Multigrid(backend, operator, operator, count)
+    multigrid = Multigrid(backend, operator.first, operator, count)
     if not multigrid.levels:
         return None
     ones = backend.asarray(np.ones(count))

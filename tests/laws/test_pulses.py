@@ -4,7 +4,7 @@ import json
 
 import numpy as np
 import pytest
-from flow_boxes import pool_case
+from flow_boxes import places_of, pool_case
 from reliability_runs import assert_same
 from scipy.sparse import csr_matrix
 
@@ -115,13 +115,10 @@ def test_pairs_below_a_relief_are_symmetric(amplitude, period):
     wave = {"amplitude": amplitude, "period": period}
     settings = [f"solver.flow.initial_surface.{key}={value}" for key, value in wave.items()]
     case = load_case("texture-steel", ("particles.spacing=32nm", *settings))
-    pairs = recipe_of(case).build(compute.cpu(threads=1)).body.pairs
-    start, neighbor = (
-        np.asarray(one, int) for one in (pairs.neighbors.row_start, pairs.neighbors.neighbor)
+    body = recipe_of(case).build(backend := compute.cpu(threads=1)).body
+    row, place = places_of(backend, body.pairs.neighbors)
+    neighbor, g = (
+        np.asarray(one)[place] for one in (body.pairs.neighbors.neighbor, body.pairs.weights)
     )
-    row = np.repeat(np.arange(start.size - 1), np.diff(start))
-    shape = 2 * (start.size - 1,)
-    weights = csr_matrix(
-        (np.asarray(pairs.weights)[: row.size], (row, neighbor[: row.size])), shape
-    )
+    weights = csr_matrix((g, (row, neighbor)), 2 * (body.count,))
     assert abs(weights - weights.T).max() < 1e-9 * weights.max()

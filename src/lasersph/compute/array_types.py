@@ -48,6 +48,11 @@ class PairList(Protocol):
         ...
 
     @property
+    def row_end(self) -> Array | None:
+        """(n,) kind "offset": where they end; None where a row ends with the next one."""
+        ...
+
+    @property
     def neighbor(self) -> Array:
         """(pairs,) kind "index"."""
         ...

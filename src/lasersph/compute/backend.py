@@ -32,7 +32,7 @@ class Backend:
     Attributes:
         name: as asked for by --backend. device: what computes, None for the processor.
         real: NumPy type of kind "real". threads: number of threads of a loop.
-        search: what finds neighbors and splices lists; None for `search` and `splice` themselves.
+        search: what finds neighbors and renews rows; None where `search` itself does.
     """
 
     name = "cpu"

@@ -73,6 +73,11 @@ class CudaArray(OpaqueArray):
         parts = tuple([part.cut(0, max(count, 1)) for part in self.parts])
         return CudaArray(parts, (*self.shape[:-1], count), self._root)
 
+    def behind_first(self) -> CudaArray:
+        """View of all elements but the first, of an array of one axis."""
+        count = self.size
+        return CudaArray((self.parts[0].cut(min(1, count - 1), count),), (count - 1,), self._root)
+
     def component(self, number: int) -> CudaArray:
         """View of one component, row-major."""
         return CudaArray((self.parts[number],), self.shape[-1:], self._root)

@@ -1,4 +1,4 @@
-"""Kernels of the graphics card that contain no physics: moving, running sums, sorting, splicing.
+"""Kernels of the graphics card that contain no physics: moving, running sums, sorting, rows.
 
 Threads share the elements: thread t takes t, t + number of threads, ... Groups that work together
 take pieces of as many elements as they have threads. Every result is the same bits however the
@@ -211,35 +211,38 @@ def sort_digits(count, keys, order, shift, pieces, start, new_keys, new_order):
 
 
 @cuda.jit
-def spliced_lengths(count, chosen, start, rows, kept, counts, beyond):
-    """Length of each row of a joined list; beyond[0] = 1 where a chosen row is not in the first."""
-    i, step = np.uint64(cuda.grid(1)), np.uint64(cuda.gridsize(1))
-    while i < count:
-        # a kept row, a chosen one, or one that the first list does not have
-        if not chosen[i]:
-            counts[i] = np.uint32(kept[i + ONE] - kept[i])
-        elif i < rows:
-            counts[i] = np.uint32(start[i + ONE] - start[i])
-        else:
-            counts[i] = np.uint32(0)
-            cuda.atomic.max(beyond, 0, np.uint32(1))
-        i += step
+def lengths_beyond_room(count, rows, start, room, counts, spare):
+    """Pairs that a row needs behind all others: with some to spare, 0 where it fits its place."""
+    k, step = np.uint64(cuda.grid(1)), np.uint64(cuda.gridsize(1))
+    while k < count:
+        i = np.uint64(rows[k])
+        length = start[i + ONE] - start[i]
+        counts[k] = np.uint32(length + length // spare if length > np.uint64(room[i]) else 0)
+        k += step
 
 
 @cuda.jit
-def splice_rows(count, chosen, start, source, kept, kept_source, row_start, joined):
-    """Copy rows of one list where chosen, of another elsewhere, to their places."""
-    i, step = np.uint64(cuda.grid(1)), np.uint64(cuda.gridsize(1))
-    while i < count:
-        base, length = row_start[i], row_start[i + ONE] - row_start[i]
-        if chosen[i]:
-            first = start[i]
-            for p in range(length):
-                q = np.uint64(p)
-                joined[base + q] = source[first + q]
-        else:
-            first = kept[i]
-            for p in range(length):
-                q = np.uint64(p)
-                joined[base + q] = kept_source[first + q]
-        i += step
+def take_places(count, rows, start, room, counts, behind, row_start, row_end, free):
+    """Begin and end of each row, and the room that it has there."""
+    k, step = np.uint64(cuda.grid(1)), np.uint64(cuda.gridsize(1))
+    while k < count:
+        i = np.uint64(rows[k])
+        length = start[i + ONE] - start[i]
+        if length > np.uint64(room[i]):
+            row_start[i] = free + behind[k]
+            room[i] = counts[k]
+        row_end[i] = row_start[i] + length
+        k += step
+
+
+@cuda.jit
+def copy_rows(count, rows, start, row_start, source, kept):
+    """Copy rows of a list to their places in another."""
+    k, step = np.uint64(cuda.grid(1)), np.uint64(cuda.gridsize(1))
+    while k < count:
+        i = np.uint64(rows[k])
+        first, base = start[i], row_start[i]
+        for p in range(start[i + ONE] - first):
+            q = np.uint64(p)
+            kept[base + q] = source[first + q]
+        k += step

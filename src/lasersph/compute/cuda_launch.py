@@ -114,7 +114,7 @@ class CudaLoopText(LoopText):
 
     def _pairs(self, lines: list[str]) -> list[str]:
         """Lines that a thread runs for its share of the pairs of a row."""
-        pairs = "for p in range(row_start[i] + lane, row_start[i + ONE], LANES):"
+        pairs = "for p in range(row_start[i] + lane, row_end[i], LANES):"
         return [pairs, *("    " + line for line in lines)]
 
     @property
@@ -154,6 +154,7 @@ class CudaLauncher(Launcher):
 
     text: type[LoopText] = CudaLoopText
     last: Callable = staticmethod(methodcaller("last"))
+    behind_first: Callable = staticmethod(methodcaller("behind_first"))
     rebinds = False
 
     def __init__(self) -> None:

@@ -1,4 +1,4 @@
-"""Neighbor list and splicing on the graphics card; see `search` and `splice`.
+"""Neighbor list and renewal of rows on the graphics card; see `search` and `row_renewal`.
 
 Levels and cells are those of the processor's search. Only what says how large the grid is goes to
 the host: corners, largest supports and numbers of pairs. The walk over levels, periodic images and
@@ -19,6 +19,7 @@ from lasersph.compute.cell_grid import CellGrid
 from lasersph.compute.cuda_array import CudaArray
 from lasersph.compute.cuda_launch import HEAD, INNER, supported
 from lasersph.compute.cuda_memory import start
+from lasersph.compute.row_renewal import SPARE, PairRows
 from lasersph.compute.scan import distance, images, indented
 from lasersph.compute.search import (
     FINEST,
@@ -28,7 +29,6 @@ from lasersph.compute.search import (
     refuse_support,
 )
 from lasersph.compute.source import SourceUnit
-from lasersph.compute.splice import PairRows
 from lasersph.compute.vectors import element
 
 _SCAN = '''{mean}
@@ -158,47 +158,31 @@ class CudaSearch:
         text = cuda_scan_text(backend.precision, dimension, mean, periodic)
         return self._scanned(cache.load(text).scan, count, arguments)
 
-    def splice(self, first: PairRows, chosen: CudaArray, others: PairRows) -> PairRows:
-        """Rows of `first` where `chosen`, those of `others` elsewhere; see `splice.splice`."""
-        backend = self.backend
-        begin, neighbor, values = map(backend.unwrap, first)
-        kept, kept_neighbor, kept_values = map(backend.unwrap, others)
-        size = kept.size - 1
-        rows = np.uint64(begin.size - 1)
-        # length of each row in the joined list
-        counts, beyond = backend.empty(size, np.uint32), backend.zeros(1, "index")
-        start(
-            cuda_kernels.spliced_lengths,
-            size,
-            chosen.parts[0],
-            begin.parts[0],
-            rows,
-            kept.parts[0],
-            counts.parts[0],
-            beyond.parts[0],
-        )
-        if beyond.to_host()[0]:
-            raise ValueError(f"a row is chosen beyond the {int(rows)} of the first list")
-        # place of each row: the exclusive sum of the lengths before it
-        row_start = backend.empty(size + 1, np.uint64)
-        backend.exclusive_scan(counts, row_start)
-        # copy neighbors and values to their places
-        joined = []
-        for ours, theirs in ((neighbor, kept_neighbor), (values, kept_values)):
-            out = backend.empty(row_start.last(), theirs.dtype)
-            start(
-                cuda_kernels.splice_rows,
-                size,
-                chosen.parts[0],
-                begin.parts[0],
-                ours.parts[0],
-                kept.parts[0],
-                theirs.parts[0],
-                row_start.parts[0],
-                out.parts[0],
-            )
-            joined.append(out)
-        return PairRows(row_start, *joined)
+    def find_places(self, rows: CudaArray, begin: CudaArray, places: Sequence[CudaArray]) -> None:
+        """Set room, begin and end of rows that take the lengths of those of another list."""
+        backend, (room, row_start, end) = self.backend, places
+        # rows that do not fit go behind all others, one after the other
+        count, behind = rows.size, backend.empty(rows.size + 1, np.uint64)
+        counts = backend.empty(count, np.uint32)
+        lengths = rows.parts[0], begin.parts[0], room.parts[0], counts.parts[0]
+        start(cuda_kernels.lengths_beyond_room, count, *lengths, np.uint64(SPARE))
+        backend.exclusive_scan(counts, behind)
+        free, last = np.uint64(row_start.last()), end.size
+        ends = behind.parts[0], row_start.parts[0], end.parts[0]
+        start(cuda_kernels.take_places, count, *lengths, *ends, free)
+        end_of_all = row_start.parts[0].cut(last, last + 1)
+        start(cuda_kernels.fill, 1, end_of_all, free + np.uint64(behind.last()))
+        for one in places:
+            one.changed()
+
+    def copy_rows(self, rows: CudaArray, found: PairRows, kept: PairRows) -> None:
+        """Copy the neighbors and values of rows to their places."""
+        begin, *parts = map(self.backend.unwrap, found)
+        row_start, *copies = map(self.backend.unwrap, kept)
+        where = rows.parts[0], begin.parts[0], row_start.parts[0]
+        for part, copy in zip(parts, copies, strict=True):
+            start(cuda_kernels.copy_rows, rows.size, *where, part.parts[0], copy.parts[0])
+            copy.changed()
 
     # --- parts of the search --------------------------------------------------------------------
 

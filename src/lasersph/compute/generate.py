@@ -139,7 +139,7 @@ class LoopText:
 
     def pair_sums(self, inner: list[str]) -> list[str]:
         """Lines that go through the pairs of a row."""
-        pairs = "for p in range(row_start[i], row_start[i + ONE]):"
+        pairs = "for p in range(row_start[i], row_end[i]):"
         return [pairs, *("    " + line for line in inner)]
 
     def end_of_row(self, lines: list[str]) -> list[str]:
@@ -159,8 +159,8 @@ class LoopText:
         types = [kinds.get(name.partition("__")[0], self.loop.precision) for name in names]
         lines = [f"b_{name} = scratch_{kind}()" for name, kind in zip(names, types, strict=True)]
         lines += [
-            "for first_pair in range(row_start[i], row_start[i + ONE], np.uint64(CAPACITY)):",
-            "    length = min(row_start[i + ONE] - first_pair, np.uint64(CAPACITY))",
+            "for first_pair in range(row_start[i], row_end[i], np.uint64(CAPACITY)):",
+            "    length = min(row_end[i] - first_pair, np.uint64(CAPACITY))",
             "    for m in range(length):",
             "        p = first_pair + m",
             *("        " + line for line in inner),
@@ -329,7 +329,8 @@ class LoopText:
     def list_parameters(self) -> list[str]:
         """Names of row numbers and of the list of pairs, where there are any."""
         names = ["rows"] if self.loop.listed else []
-        return names + (["row_start", "neighbor"] if self.loop.shape != "pointwise" else [])
+        lists = ["row_start", "row_end", "neighbor"]
+        return names + (lists if self.loop.shape != "pointwise" else [])
 
     def array_parameters(self) -> list[tuple[str, str]]:
         """Name of each component, and of the array that it belongs to, for all fields that enter
@@ -350,7 +351,7 @@ class LoopText:
         addresses of the components of each table and their length, then the addresses of the
         numbers and of `partial`.
         """
-        kinds = {"rows": "uint32", "row_start": "uint64", "neighbor": "uint32"}
+        kinds = dict(rows="uint32", row_start="uint64", row_end="uint64", neighbor="uint32")
         kinds |= dict(self.loop.types)
         arrays = [(name, name) for name in self.list_parameters()] + self.array_parameters()
         body = []

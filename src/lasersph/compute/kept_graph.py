@@ -222,7 +222,7 @@ def _taken(loops: Loops, found: Recording) -> tuple[list[NamedArray], list[Named
     for _, call, _ in found.launches:
         given, name = loops.given(call), call.function.__name__
         # all arrays of a loop, with their names for messages
-        lists = ("row_start", given.row_start), ("neighbor", given.neighbor)
+        lists = [(one, getattr(given, one)) for one in ("row_start", "row_end", "neighbor")]
         for symbol, host in (*given.named, *lists):
             # arrays that the recording has made are its own
             if host is not None and id(owner_of(host)) not in made:

@@ -11,7 +11,7 @@ from __future__ import annotations
 from array import array
 from collections.abc import Callable, Sequence
 from functools import cache
-from operator import methodcaller
+from operator import itemgetter, methodcaller
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -27,7 +27,8 @@ _CODES = {"float64": "d", "float32": "f"}
 HOWS = ("sum", "max", "min")
 EMPTY = {"sum": 0.0, "max": float("-inf"), "min": float("inf")}
 """Reductions of no rows."""
-HEAD_WORDS = 8
+HEAD_WORDS, LIST_WORDS = 8, 3
+"""Words of a frame before those of arrays, and of a list of pairs: begins, ends, neighbors."""
 RUN = f'''ZERO, ONE, TWO = np.uint64(0), np.uint64(1), np.uint64(2)
 
 
@@ -92,7 +93,7 @@ class Bound(NamedTuple):
     Attributes:
         listed, rows: rows that there are, and that are run. visits: rows or, where there is a
             list, pairs that it visits, about.
-        lists: row numbers, row pointers and neighbors, as far as there are any.
+        lists: row numbers, begins and ends of rows, neighbors, as far as there are any.
         fields, outs, tables: arrays as wholes; an output is None where it is not stored.
         constants: by name, numbers or tuples of numbers.
     """
@@ -112,12 +113,14 @@ class Launcher:
     """All that loops need to know of where they run: here the processor, on NumPy's arrays.
 
     Attributes:
-        text: writes the loops. last: the last element of an array. rebinds: whether a launch can
+        text: writes the loops. last: the last element of an array.
+        behind_first: a view of all but the first. rebinds: whether a launch can
             take other arrays of the same kinds.
     """
 
     text: type[LoopText] = LoopText
     last: Callable = staticmethod(methodcaller("item", -1))
+    behind_first: Callable = staticmethod(itemgetter(slice(1, None)))
     rebinds = True
 
     def __init__(self, threads: int, precision: str) -> None:
@@ -193,7 +196,7 @@ class Launch:
                 words += addresses(one)
         for one in tables:
             words += (*addresses(one), one.shape[-1])
-        self._arrays = slice(HEAD_WORDS + len(lists) % 2, len(words))
+        self._arrays = slice(HEAD_WORDS + len(lists) % LIST_WORDS, len(words))
         # last the numbers and what the blocks reduce
         words += [_address(numbers) for numbers in self.numbers if numbers]
         if reduced:

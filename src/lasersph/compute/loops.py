@@ -39,8 +39,8 @@ class Given(NamedTuple):
 
     Attributes:
         tables: constants that are arrays. numbers: the others by name, with the period of the list.
-        row_start, neighbor: the list, None without. geometry: kernel, mean, periodic axes and
-            dimension as far as the loop depends on them, else None.
+        row_start, row_end, neighbor: the list, None without. geometry: kernel, mean, periodic axes
+            and dimension as far as the loop depends on them, else None.
     """
 
     call: Call
@@ -51,6 +51,7 @@ class Given(NamedTuple):
     outs: list[np.ndarray | None]
     rows: np.ndarray | None
     row_start: np.ndarray | None
+    row_end: np.ndarray | None
     neighbor: np.ndarray | None
     geometry: tuple | None
 
@@ -131,16 +132,16 @@ class Loops:
         stored, address = [one for one in outs if one is not None], self._object_address
         if len(stored) < len(outs):
             kinds += tuple([one is None for one in outs])
-        ones = [0, 0 if rows is None else address(rows), 0, 0, 0]
+        ones = [0, 0 if rows is None else address(rows), 0, 0, 0, 0]
         ones += map(address, signature.field_values(fields))
         if neighbors is not None:
-            support, position = neighbors.support, neighbors.position
-            ones[2:4] = address(neighbors.row_start), address(neighbors.neighbor)
-            ones[4] = place = 0 if support is None else address(support)
+            support, position, end = neighbors.support, neighbors.position, neighbors.row_end
+            ones[2:4] = address(neighbors.row_start), 0 if end is None else address(end)
+            ones[4:6] = address(neighbors.neighbor), 0 if support is None else address(support)
             if signature.position:
                 ones.append(0 if position is None else address(position))
             if signature.support:
-                ones.append(place)
+                ones.append(ones[5])
             if signature.geometry:
                 values += (neighbors.period,)
                 kinds += (neighbors.kernel, neighbors.mean, neighbors.period)
@@ -156,7 +157,10 @@ class Loops:
         if compiled is None or not source.is_current(compiled.watched):
             _refuse_strides(given)
             compiled = loops[key] = self._compiled(given)
-        symbols, lists = given.signature.symbols, (given.rows, given.row_start, given.neighbor)
+        symbols, row_end = given.signature.symbols, given.row_end
+        if given.row_start is not None and row_end is None:
+            row_end = self.launcher.behind_first(given.row_start)
+        lists = given.rows, given.row_start, row_end, given.neighbor
         return Bound(
             compiled,
             listed,
@@ -192,9 +196,10 @@ class Loops:
         signature, unwrap = self._signature(call), self.unwrap
         neighbors, fields, constants = call.neighbors, call.fields, call.constants
         arrays = [unwrap(fields[symbol]) for symbol in signature.fields]
-        row_start = neighbor = geometry = None
+        row_start = row_end = neighbor = geometry = None
         if neighbors is not None:
             row_start, neighbor = unwrap(neighbors.row_start), unwrap(neighbors.neighbor)
+            row_end = None if neighbors.row_end is None else unwrap(neighbors.row_end)
             if signature.position:
                 arrays.append(unwrap(neighbors.position))
             if signature.support:
@@ -207,9 +212,8 @@ class Loops:
             numbers["period"] = neighbors.period
         outs = [o if o is None else unwrap(o) for o in listed(call.out)]
         active = None if call.rows is None else unwrap(call.rows)
-        return Given(
-            call, signature, arrays, tables, numbers, outs, active, row_start, neighbor, geometry
-        )
+        lists = active, row_start, row_end, neighbor
+        return Given(call, signature, arrays, tables, numbers, outs, *lists, geometry)
 
     def text(self, given: Given) -> tuple[LoopText, str]:
         """Source of a call's loop, and its lines; see `loop_texts.written`."""
@@ -309,7 +313,7 @@ def _checked(given: Given, launcher: Launcher) -> tuple[int, int, int, tuple]:
     Raises:
         ValueError: an array is too short or of the wrong type, or read while it is written.
     """
-    call, signature, arrays, tables, numbers, outs, active, row_start, neighbor, geometry = given
+    call, signature, arrays, tables, numbers, outs, active, row_start, *_, geometry = given
     kinds: list[Any] = [geometry]
     lengths = []
     for one in arrays:
@@ -329,8 +333,8 @@ def _checked(given: Given, launcher: Launcher) -> tuple[int, int, int, tuple]:
         kinds += (dtype, shape[:-1], strides[-1])
     kinds += map(fingerprint, numbers.values())
     total = pairs = 0
-    if row_start is not None and neighbor is not None:
-        rows, total, pairs = _list_size(call, row_start, neighbor, launcher.last(row_start))
+    if row_start is not None:
+        rows, total, pairs = _list_size(given, launcher.last(row_start))
     elif written:
         rows = written[0]
     elif len(set(lengths)) == 1:
@@ -357,17 +361,17 @@ def _checked(given: Given, launcher: Launcher) -> tuple[int, int, int, tuple]:
     return listed, rows, visits, tuple(kinds)
 
 
-def _list_size(
-    call: Call, row_start: np.ndarray, neighbor: np.ndarray, pairs: int
-) -> tuple[int, int, int]:
+def _list_size(given: Given, pairs: int) -> tuple[int, int, int]:
     """Rows, particles and pairs of a list."""
-    if row_start.dtype != _OFFSET or neighbor.dtype != _INDEX:
-        raise ValueError(
-            f"row_start must be uint64 and neighbor uint32, not {row_start.dtype} and"
-            f" {neighbor.dtype}"
-        )
-    rows = row_start.size - 1
-    support = None if call.neighbors is None else call.neighbors.support
+    start, end, neighbor = given.row_start, given.row_end, given.neighbor
+    assert start is not None and neighbor is not None
+    if start.dtype != _OFFSET or neighbor.dtype != _INDEX:
+        kinds = f"not {start.dtype} and {neighbor.dtype}"
+        raise ValueError(f"row_start must be uint64 and neighbor uint32, {kinds}")
+    rows = start.size - 1
+    if end is not None and (end.dtype != _OFFSET or end.size < rows):
+        raise ValueError(f"row_end has {end.size} {end.dtype} for {rows} rows")
+    support = None if given.call.neighbors is None else given.call.neighbors.support
     total = rows if support is None else support.shape[-1]
     if pairs > neighbor.size or total < rows:
         raise ValueError(f"{pairs} pairs, {neighbor.size} stored; {total} particles")

@@ -38,6 +38,7 @@ READ_AT_NEIGHBORS = 8
 
 TEXT = f'''
 DATA, NDIM, SHAPE, STRIDES, DTYPE = (np.uint64(k) for k in (16, 24, 32, 40, 56))
+WORD = np.uint64(8)
 
 
 def word(address):
@@ -83,8 +84,8 @@ def loop(plan_address, ones_address, frame_address):
     plan, ones, frame = at_uint64(plan_address), at_uint64(ones_address), at_uint64(frame_address)
     ones[0] = ZERO
     count, block, threads, capacity, is_values = plan[0], plan[1], plan[2], plan[3], plan[4]
-    active, row_start, neighbor, support = ones[1], ones[2], ones[3], ones[4]
-    fields, entries = ones_address + np.uint64(40), plan_address + np.uint64({8 * HEAD})
+    active, row_start, row_end, neighbor, support = ones[1], ones[2], ones[3], ones[4], ones[5]
+    fields, entries = ones_address + np.uint64(48), plan_address + np.uint64({8 * HEAD})
     there, total, pairs, known = ZERO, ZERO, ZERO, False
     place = np.uint64({HEAD_WORDS}) + (ONE if active else ZERO)
     if row_start:
@@ -95,7 +96,13 @@ def loop(plan_address, ones_address, frame_address):
         total = length(support) if support else there
         if pairs > length(neighbor) or total < there:
             return
-        frame[place], frame[place + ONE] = word(row_start + DATA), word(neighbor + DATA)
+        # a row ends where the list says, or with the next one
+        frame[place], frame[place + ONE] = word(row_start + DATA), word(row_start + DATA) + WORD
+        if row_end:
+            if word(row_end + DTYPE) != plan[5] or length(row_end) < there:
+                return
+            frame[place + ONE] = word(row_end + DATA)
+        frame[place + ONE + ONE] = word(neighbor + DATA)
         known = True
     for k in range(count):
         one = word(fields + k * np.uint64(8))

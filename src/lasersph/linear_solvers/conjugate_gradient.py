@@ -17,8 +17,10 @@ Reference: [Saad2003], Algorithm 9.1.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import partial
+
+import numpy as np
 
 from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
@@ -29,6 +31,8 @@ from lasersph.linear_solvers.iteration import conjugate_gradients
 from lasersph.linear_solvers.multigrid import Multigrid, are_same
 from lasersph.particles.neighbor_lists import NeighborList
 
+SPARE = 8
+"""Forecast: rounded weights have room for one more in so many."""
 STIFF = 20.0
 """Stiffness above which setting up and applying multigrid costs less than it saves Jacobi."""
 FACTORED = 100.0
@@ -45,13 +49,18 @@ class PairOperator:
 
     Attributes:
         neighbors: list of pairs. weights: (pairs,) g_ij. boundary_coefficient: (n,) a_i >= 0.
-        total: (n,) sum_j g_ij.
+        total: (n,) sum_j g_ij. first: pairs and weights that it began with, until
+            a solver has made its levels from them.
     """
 
     neighbors: NeighborList
     weights: Array
     boundary_coefficient: Array
     total: Array
+    first: tuple[NeighborList, Array] = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.first = self.neighbors, self.weights
 
 
 def start(b, C, S, a, mask, s):
@@ -112,7 +121,7 @@ class ConjugateGradient:
         rests: bool = False,
     ) -> None:
         self.backend, self.operator, self.rounds = backend, operator, rounds
-        self._first, self._used = replace(operator), replace(operator, weights=None)
+        self._used, self._rounded = replace(operator, weights=None), backend.empty(0, np.float32)
         self._bound: tuple = ()
         self._v = {name: backend.zeros(count) for name in VECTORS}
         self.solution, self.residual = self._v["x"], 0.0
@@ -216,7 +225,7 @@ class ConjugateGradient:
         if not self._given:
             return self.factors
         if self.factors is None:
-            pairs = ordered_pairs(self.backend, self.operator.neighbors, self._weights(None))
+            pairs = ordered_pairs(self.backend, self.operator.neighbors, self._weights())
             if pairs is None:
                 self._given = ()
             else:
@@ -224,10 +233,15 @@ class ConjugateGradient:
                 self.factors = IncompleteFactors(self.backend, pairs, self._v, count)
         return self.factors
 
-    def _weights(self, into: Array | None) -> Array:
+    def _weights(self) -> Array:
         """Weights as they are read; rounded ones in the place of earlier ones."""
-        weights = self.operator.weights
-        return self.backend.single(weights, into) if self.rounds else weights
+        weights, backend = self.operator.weights, self.backend
+        if not self.rounds:
+            return weights
+        pairs = weights.shape[0]
+        if self._rounded.shape[0] < pairs:
+            self._rounded = backend.empty(pairs + pairs // SPARE, np.float32)
+        return backend.single(weights, backend.head(self._rounded, pairs))
 
     def _take_pairs(self) -> None:
         """Use the pairs and weights that the operator has now, as they are read."""
@@ -235,15 +249,16 @@ class ConjugateGradient:
         now = (operator.neighbors, operator.weights)
         if not are_same(now, self._bound):
             self._bound = now
-            used.neighbors, used.weights = operator.neighbors, self._weights(used.weights)
+            used.neighbors, used.weights = operator.neighbors, self._weights()
 
     def _prepared(self, C: Array, mask: Array, s: float) -> Multigrid | None:
         """Multigrid for this matrix; levels are built when first needed, from the first pairs,
         so that they do not depend on when that is."""
         if self._multigrid is None:
             count = self.solution.shape[0]
-            self._multigrid = Multigrid(self.backend, self._first, self._used, count)
-            self._first = self._used  # the first pairs are not held any longer
+            operator = self.operator
+            self._multigrid = Multigrid(self.backend, operator.first, self._used, count)
+            operator.first = operator.neighbors, operator.weights  # others are held no longer
         if not self._multigrid.levels:
             return None
         if not self._is_set_up:

@@ -43,6 +43,7 @@ class Rows(NamedTuple):
     row_start: Array
     neighbor: Array
     support: Array | None
+    row_end: Array | None = None
     position: Array | None = None
     kernel: Any = None
     mean: Any = None
@@ -204,7 +205,7 @@ class Multigrid:
     """Correction of the Jacobi preconditioner by all levels of aggregates.
 
     Args:
-        first: operator whose geometry makes the levels. operator: that of the equations.
+        first: pairs and weights that make the levels. operator: that of the equations.
 
     Attributes:
         levels: the finest first; empty where the particles are few.
@@ -212,8 +213,8 @@ class Multigrid:
 
     def __init__(self, backend: Backend, first: Any, operator: Any, count: int) -> None:
         self.backend, self.operator = backend, operator
-        pairs = first.neighbors
-        host = [pairs.position, pairs.support, pairs.row_start, pairs.neighbor, first.weights]
+        pairs, weights = first
+        host = [pairs.position, pairs.support, pairs.row_start, pairs.neighbor, weights]
         self.levels = [_Level(backend, a) for a in coarsen(*(backend.host_view(v) for v in host))]
         self._C = backend.zeros(count)
         if not self.levels:

@@ -38,7 +38,8 @@ class NeighborList:
     """Pairs in compressed rows.
 
     Attributes:
-        row_start: (n + 1,) kind "offset". neighbor: (pairs,) kind "index".
+        row_start: (n + 1,) kind "offset". neighbor: (pairs,) kind "index". row_end: (n,) kind
+            "offset", None where each row ends with the next one.
         position: (dim, N) [m]; N >= n. support: (N,) [m]. Both None where loops read neither.
         kernel: sph.kernels.Kernel. mean: see above. period: as of `Box`.
     """
@@ -50,6 +51,7 @@ class NeighborList:
     kernel: Any = None
     mean: Mean = common
     period: tuple[float, ...] = ()
+    row_end: Array | None = None
 
     def without_ghosts(self, backend: Backend, source: Array) -> NeighborList:
         """The same pairs with every dummy replaced by the particle that it stands for.

@@ -51,6 +51,7 @@ def pair_sum(precision):
     real = np.dtype(precision)
     offset, index, field = np.zeros(4, np.uint64), np.zeros(6, np.uint32), np.zeros(3, real)
     neighbors = SimpleNamespace(
+        row_end=None,
         row_start=offset, neighbor=index, position=np.zeros((2, 3), real), support=field,
         kernel=kernels.kernel("wendland-c2", 2), mean=arithmetic, period=(1.0, 0.0),
     )  # fmt: skip

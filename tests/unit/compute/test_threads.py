@@ -33,6 +33,7 @@ def results(threads, position, T):
         backend, position, np.full(count, 0.02), count, mean=mean
     )
     neighbors = SimpleNamespace(
+        row_end=None,
         row_start=row_start, neighbor=neighbor, position=position,
         support=np.full(count, 0.02), kernel=None, mean=mean, period=(),
     )  # fmt: skip

@@ -16,6 +16,7 @@ def matrix_of(backend, dense):
     is_pair = (dense != 0.0) & ~np.eye(n, dtype=bool)
     row_start = np.concatenate([[0], np.cumsum(is_pair.sum(axis=1))])
     neighbors = SimpleNamespace(
+        row_end=None,
         row_start=backend.asarray(row_start, "offset"),
         neighbor=backend.asarray(np.nonzero(is_pair)[1], "index"),
         position=backend.zeros((1, n)),

@@ -29,6 +29,7 @@ class Ring:
     def __post_init__(self):
         steps = np.array([-2, -1, 1, 2])
         self.host = (np.arange(COUNT)[:, None] + steps) % COUNT
+        self.row_end = None
         self.row_start = self.backend.asarray(4 * np.arange(COUNT + 1), "offset")
         self.neighbor = self.backend.asarray(self.host.ravel(), "index")
         self.position = self.backend.asarray(np.arange(COUNT, dtype=float).reshape(1, -1))

@@ -40,7 +40,7 @@ def test_correction_is_symmetric_and_positive():
     backend, side = compute.cpu(threads=1), 24
     operator, _ = system(backend, side)
     count, mask = side * side, held_front(side)
-    multigrid = Multigrid(backend, operator, operator, count)
+    multigrid = Multigrid(backend, operator.first, operator, count)
     multigrid.prepare(backend.asarray(np.ones(count)), backend.asarray(mask), 50.0)
     u, v = mask * right_side(count, side), mask * np.cos(0.7 * np.arange(count))
 
@@ -89,7 +89,7 @@ def test_few_particles_need_no_levels():
     """A handful is solved by Jacobi alone, also where it is stiff."""
     backend, side = compute.cpu(threads=1), 6
     operator, pairs = system(backend, side)
-    assert Multigrid(backend, operator, operator, 36).levels == []
+    assert Multigrid(backend, operator.first, operator, 36).levels == []
     b, one = right_side(36, side), np.ones(36)
     _, x = solved(backend, operator, 36, b, one, one, 1e4, 1e-10)
     expected = np.linalg.solve(dense(pairs, one, one, 1e4, 0.0), b)

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from lasersph.compute.array_types import Rows
 from lasersph.compute.graph import graph
-from lasersph.compute.splice import PairRows, splice
+from lasersph.compute.row_renewal import PairRows, RenewedRows
 from lasersph.solvers.conduction.body import Body
 from lasersph.solvers.melt_pool.block import Block
 from lasersph.solvers.melt_pool.block_terms import inner_weight, wall_terms, weight_of
@@ -33,6 +33,7 @@ class HeatPairs:
     def __init__(self, body: Body) -> None:
         self.backend, self.body = body.backend, body
         self._renewed = body.particles["has_moving_pairs"]
+        self._rows: RenewedRows | None = None
 
     def update(self, block: Block) -> None:
         """Take the rows that the block has found, with the weights of its present positions.
@@ -41,7 +42,7 @@ class HeatPairs:
         all rows are found, as in a box, the list of the block is that of the body. Weights of the
         block become those between particles: 0 toward ghosts beyond a Dirichlet face.
         """
-        backend, body, pairs, rows = self.backend, self.body, self.body.pairs, None
+        backend, pairs, rows = self.backend, self.body.pairs, None
         if block.has_row is not None:
             rows = backend.rows_where(backend.head(block.has_row, block.complete_rows), 1.0)
 
@@ -54,16 +55,18 @@ class HeatPairs:
             return
 
         # rows of the block in the place of the old ones, all others as they are
-        chosen, ones = backend.zeros(body.count, "flag"), backend.zeros(rows.shape[0], "flag")
-        backend.fill(ones, 1)
-        backend.scatter(ones, rows, chosen)
-        first = PairRows(row_start, neighbor, block.heat_weights)
-        others = PairRows(pairs.neighbors.row_start, pairs.neighbors.neighbor, pairs.weights)
-        joined = splice(backend, first, chosen, others)
-        pairs.neighbors = replace(
-            pairs.neighbors, row_start=joined.row_start, neighbor=joined.neighbor
-        )
-        pairs.weights = joined.values
+        if self._rows is None:
+            there = pairs.neighbors.row_start, pairs.neighbors.neighbor, pairs.weights
+            self._rows = RenewedRows(backend, PairRows(*there))
+        self._rows.renew(rows, PairRows(row_start, neighbor, block.heat_weights))
+        ends = {"row_start": self._rows.row_start, "row_end": self._rows.row_end}
+        neighbor, pairs.weights = self._rows.stored
+        pairs.neighbors = replace(pairs.neighbors, neighbor=neighbor, **ends)
+
+        # those that it began with lie in the same memory
+        row_start, neighbor, weights = self._rows.first
+        first = replace(pairs.neighbors, row_start=row_start, row_end=None, neighbor=neighbor)
+        pairs.first = first, weights
 
     @graph
     def weigh(self, block: Block, rows: Rows | None) -> None:

@@ -124,6 +124,19 @@ def test_pairs_stay_symmetric():
         assert solver.backend.to_host(pairs.total) == pytest.approx(g.sum(axis=1), rel=1e-12)
 
 
+def test_first_pairs_need_no_memory_of_their_own():
+    """Rows that moved lie behind those that multigrid starts from, which stay as they were."""
+    solver, untouched = small_pool(), small_pool()
+    go(solver, 15)
+    pairs, first = solver.body.pairs, untouched.body.pairs
+    assert pairs.weights.size > first.weights.size
+    there, (neighbors, weights) = pairs.neighbors, pairs.first
+    assert np.shares_memory(neighbors.neighbor, there.neighbor)
+    assert np.shares_memory(weights, pairs.weights)
+    assert np.array_equal(neighbors.neighbor, first.neighbors.neighbor)
+    assert np.array_equal(weights, first.weights)
+
+
 def test_restored_solver_repeats_the_bits(life):
     """From any moment: before, during and after the flow."""
     for moment in (0, 1, 9, 14, 15, 27, 36, 40, 41, 42, 43):
