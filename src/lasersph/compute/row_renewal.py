@@ -68,7 +68,8 @@ class RenewedRows:
 
     Attributes:
         row_start: (n + 1,) where rows begin, and how many pairs are stored. row_end: (n,) where
-            they end.
+            they end. neighbor, values: of the pairs and of some places more: arrays that stay
+            while the number of pairs changes a little.
     """
 
     def __init__(self, backend: Backend, first: PairRows) -> None:
@@ -81,17 +82,13 @@ class RenewedRows:
         backend.copy(backend.wrap(behind), self.row_end)
         # rows of the first list have no room: they stay as they are
         self._room = backend.zeros(count, "index")
-        self._store(first.neighbor, first.values, (1 + RESERVE) * self._first)
+        self._memory = self.neighbor, self.values = first.neighbor, first.values
+        self._move((1 + RESERVE) * self._first)
 
     @property
     def first(self) -> PairRows:
         """The rows of the first list."""
-        return PairRows(self._start, *self._parts(self._first))
-
-    @property
-    def stored(self) -> tuple[Rows, Array]:
-        """Neighbors and values, with those of the first list and of places that were left."""
-        return self._parts(self._launcher.last(self.backend.unwrap(self.row_start)))
+        return PairRows(self._start, *self._head(self._first))
 
     def renew(self, rows: Rows, found: PairRows) -> None:
         """Put rows of another list in the place of those that there are.
@@ -106,30 +103,36 @@ class RenewedRows:
         least = min(found.row_start.shape[0] - 1, self.row_end.shape[0])
         if numbers.size and (largest := self._launcher.largest(numbers)) >= least:
             raise ValueError(f"row {largest} is renewed, a list has {least}")
-        if found.values.dtype != self._values.dtype:
-            raise ValueError(f"{found.values.dtype} in a list of {self._values.dtype}")
+        if found.values.dtype != self.values.dtype:
+            raise ValueError(f"{found.values.dtype} in a list of {self.values.dtype}")
         if not numbers.size:
             return
 
         # places of the rows, and memory where they need more
-        before, places = self.stored, (self._room, self.row_start, self.row_end)
-        _find_places(backend, rows, found.row_start, places)
-        needed = self._launcher.last(backend.unwrap(self.row_start))
-        if needed > self._neighbor.shape[0]:
-            self._store(*before, needed + RESERVE * self._first)
-        _copy_rows(backend, rows, found, PairRows(self.row_start, self._neighbor, self._values))
+        _find_places(backend, rows, found.row_start, (self._room, self.row_start, self.row_end))
+        pairs = self._launcher.last(backend.unwrap(self.row_start))
+        if pairs > self.neighbor.shape[0]:
+            self._lengthen(pairs + pairs // (2 * SPARE))
+        _copy_rows(backend, rows, found, PairRows(self.row_start, self.neighbor, self.values))
 
-    def _parts(self, pairs: int) -> tuple[Rows, Array]:
-        """Neighbors and values of the first pairs."""
-        head = self.backend.head
-        return head(self._neighbor, pairs), head(self._values, pairs)
+    def _lengthen(self, places: int) -> None:
+        """Take so many places of the memory; more memory where it has fewer."""
+        if places > self._memory[0].shape[0]:
+            self._move(places + RESERVE * self._first)
+        self.neighbor, self.values = self._head(places)
 
-    def _store(self, neighbor: Rows, values: Array, capacity: int) -> None:
-        """Copy neighbors and values to memory for so many."""
-        backend, pairs = self.backend, neighbor.shape[0]
-        self._neighbor, self._values = backend.zeros(capacity, "index"), backend.zeros(capacity)
-        for part, copy in zip((neighbor, values), self._parts(pairs), strict=True):
-            backend.copy(part, copy)
+    def _move(self, capacity: int) -> None:
+        """Move neighbors and values to memory for so many."""
+        backend, places = self.backend, self.neighbor.shape[0]
+        self._memory = backend.zeros(capacity, "index"), backend.zeros(capacity)
+        before, (self.neighbor, self.values) = (self.neighbor, self.values), self._head(places)
+        backend.copy(before[0], self.neighbor)
+        backend.copy(before[1], self.values)
+
+    def _head(self, places: int) -> tuple[Rows, Array]:
+        """The first places of the memory."""
+        neighbor, values = self._memory
+        return self.backend.head(neighbor, places), self.backend.head(values, places)
 
 
 def _find_places(

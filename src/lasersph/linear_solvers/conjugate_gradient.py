@@ -20,8 +20,6 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 from functools import partial
 
-import numpy as np
-
 from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
 from lasersph.compute.graph import graph
@@ -31,8 +29,6 @@ from lasersph.linear_solvers.iteration import conjugate_gradients
 from lasersph.linear_solvers.multigrid import Multigrid, are_same
 from lasersph.particles.neighbor_lists import NeighborList
 
-SPARE = 8
-"""Forecast: rounded weights have room for one more in so many."""
 STIFF = 20.0
 """Stiffness above which setting up and applying multigrid costs less than it saves Jacobi."""
 FACTORED = 100.0
@@ -121,7 +117,7 @@ class ConjugateGradient:
         rests: bool = False,
     ) -> None:
         self.backend, self.operator, self.rounds = backend, operator, rounds
-        self._used, self._rounded = replace(operator, weights=None), backend.empty(0, np.float32)
+        self._used = replace(operator, weights=None)
         self._bound: tuple = ()
         self._v = {name: backend.zeros(count) for name in VECTORS}
         self.solution, self.residual = self._v["x"], 0.0
@@ -225,7 +221,7 @@ class ConjugateGradient:
         if not self._given:
             return self.factors
         if self.factors is None:
-            pairs = ordered_pairs(self.backend, self.operator.neighbors, self._weights())
+            pairs = ordered_pairs(self.backend, self.operator.neighbors, self._weights(None))
             if pairs is None:
                 self._given = ()
             else:
@@ -233,15 +229,10 @@ class ConjugateGradient:
                 self.factors = IncompleteFactors(self.backend, pairs, self._v, count)
         return self.factors
 
-    def _weights(self) -> Array:
+    def _weights(self, into: Array | None) -> Array:
         """Weights as they are read; rounded ones in the place of earlier ones."""
-        weights, backend = self.operator.weights, self.backend
-        if not self.rounds:
-            return weights
-        pairs = weights.shape[0]
-        if self._rounded.shape[0] < pairs:
-            self._rounded = backend.empty(pairs + pairs // SPARE, np.float32)
-        return backend.single(weights, backend.head(self._rounded, pairs))
+        weights = self.operator.weights
+        return self.backend.single(weights, into) if self.rounds else weights
 
     def _take_pairs(self) -> None:
         """Use the pairs and weights that the operator has now, as they are read."""
@@ -249,7 +240,10 @@ class ConjugateGradient:
         now = (operator.neighbors, operator.weights)
         if not are_same(now, self._bound):
             self._bound = now
-            used.neighbors, used.weights = operator.neighbors, self._weights()
+            used.neighbors, used.weights = used.first = (
+                operator.neighbors,
+                self._weights(used.weights),
+            )
 
     def _prepared(self, C: Array, mask: Array, s: float) -> Multigrid | None:
         """Multigrid for this matrix; levels are built when first needed, from the first pairs,

@@ -26,7 +26,7 @@ def numbers(backend, *chosen):
 def lists_of(backend, renewed):
     """Neighbors and values row by row."""
     start, end = backend.to_host(renewed.row_start), backend.to_host(renewed.row_end)
-    neighbor, values = (backend.to_host(part) for part in renewed.stored)
+    neighbor, values = (backend.to_host(part) for part in (renewed.neighbor, renewed.values))
     pieces = [slice(int(a), int(b)) for a, b in zip(start, end, strict=False)]
     return [neighbor[p].tolist() for p in pieces], [values[p].tolist() for p in pieces]
 
@@ -59,6 +59,17 @@ def test_place_is_kept_while_a_row_fits(backend):
         assert lists_of(backend, renewed)[0] == [[5], [9] * length, [1]]
         begins.append(int(backend.to_host(renewed.row_start)[1]))
     assert begins == [3, 3, 3, 3 + longer]
+
+
+def test_arrays_stay_while_pairs_change_little(backend):
+    """Recorded graphs go on with the arrays that they have, as long as all pairs fit there."""
+    renewed = RenewedRows(backend, rows(backend, *[[0] * 50] * 3))
+    kept = []
+    for length in (50, 50, 54, 56, 57):
+        renewed.renew(numbers(backend, 1), rows(backend, [0], [9] * length))
+        kept.append((renewed.neighbor, renewed.values))
+    assert all(one is other for now in kept[1:4] for one, other in zip(now, kept[0], strict=True))
+    assert kept[4][0] is not kept[0][0]
 
 
 def test_more_than_there_is_memory_for(backend):

@@ -59,9 +59,8 @@ class HeatPairs:
             there = pairs.neighbors.row_start, pairs.neighbors.neighbor, pairs.weights
             self._rows = RenewedRows(backend, PairRows(*there))
         self._rows.renew(rows, PairRows(row_start, neighbor, block.heat_weights))
-        ends = {"row_start": self._rows.row_start, "row_end": self._rows.row_end}
-        neighbor, pairs.weights = self._rows.stored
-        pairs.neighbors = replace(pairs.neighbors, neighbor=neighbor, **ends)
+        now = {name: getattr(self._rows, name) for name in ("row_start", "row_end", "neighbor")}
+        pairs.neighbors, pairs.weights = replace(pairs.neighbors, **now), self._rows.values
 
         # those that it began with lie in the same memory
         row_start, neighbor, weights = self._rows.first
