@@ -183,6 +183,8 @@ def connected_parts(is_filled: NDArray[np.bool_], repeats: Sequence[bool]) -> ND
     Parts are numbered by their first cells. Cells touch by sides, edges and corners, and the last
     of an axis that repeats touches the first.
     """
+    if is_filled.all():
+        return np.ones(is_filled.shape, np.int64)
     from scipy.ndimage import label  # loads as long as all else that builds a pool
 
     # axes that repeat begin with a copy of their last cells

@@ -109,7 +109,7 @@ def test_around_ends(repeats, expected):
 def test_parts_of_random_grids(shape):
     """As the smallest number spreads from cell to cell, with and without periods."""
     random, d = np.random.default_rng(4), len(shape)
-    for share in (0.1, 0.25, 0.5):
+    for share in (0.1, 0.25, 0.5, 1.0):
         for repeats in np.ndindex((2,) * d):
             filled = random.random(shape) < share
             grid = CellGrid((0.0,) * d, shape, (1.0,) * d, repeats)
