@@ -8,7 +8,6 @@ import hashlib
 import importlib.util
 import json
 import os
-import shutil
 import subprocess
 import sys
 from functools import cache
@@ -76,9 +75,9 @@ def main(folder: Path) -> int:
             seen[key] = known.get(key) or _looks_of(file, name, arguments)
             found.append((file, name, arguments, *seen[key]))
     (folder / KERNELS_FOUND).write_text(json.dumps(found))
-    part = folder / KNOWN
+    part = known_file.with_suffix(f".{os.getpid()}.tmp")
     part.write_text(json.dumps(seen))
-    shutil.move(part, known_file)
+    part.replace(known_file)
     return 0
 
 
