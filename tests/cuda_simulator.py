@@ -1,8 +1,9 @@
-"""Numba's CUDA simulator made fit for tests: a thread of Python only where threads wait.
+"""Numba's CUDA simulator made fit for tests: all threads of the card in one thread of Python.
 
 The simulator starts a thread of Python per thread of the card and watches them in a busy loop; this
-takes 5 ms per group of threads. Here threads of kernels without barriers take turns in one thread,
-and those of the others wait for each other at a barrier of the operating system.
+takes 5 ms per group of threads. Here threads of kernels without barriers take turns, and those of
+the others are greenlets, which go on from barrier to barrier one after the other. Kernels read and
+write NumPy's arrays, not its wrappers of them, and call functions of their own module at once.
 
 Where the environment names a file as LASERSPH_KERNELS, it holds at the end every kernel that was
 started, with the types of its arguments, for `machine_code`.
@@ -11,22 +12,26 @@ started, with the types of its arguments, for `machine_code`.
 import atexit
 import json
 import os
+import sys
 import threading
+from functools import cache
 from pathlib import Path
 
 import numpy as np
+from greenlet import getcurrent, greenlet
 
 KERNELS = "LASERSPH_KERNELS"
 
 
 def hasten():
     """Let the simulator run groups of threads as above."""
-    from numba.cuda.simulator import kernel
+    from numba.cuda.simulator import kernel, kernelapi
 
     if kernel.BlockManager.run is _run:
         return
     kernel.BlockManager.run = _run
-    kernel.BlockThread.syncthreads = lambda thread: thread._manager.barrier.wait()
+    kernel.FakeCUDAKernel.__call__ = _hastened(kernel.FakeCUDAKernel.__call__, kernel)
+    kernelapi.FakeCUDAShared.array = _shared
     if KERNELS in os.environ:
         _record(kernel.FakeCUDAKernel, Path(os.environ[KERNELS]))
 
@@ -45,6 +50,28 @@ def _record(kind, file):
     atexit.register(lambda: file.write_text(json.dumps(sorted(found))))
 
 
+def _hastened(call, simulator):
+    """The call of a kernel or of a function on the card, which is a plain one where the simulator
+    has put itself in place of `cuda` already: in the module of the kernel that runs."""
+
+    def called(kernel, *arguments):
+        context = simulator._kernel_context
+        if context is not None and kernel.fn.__globals__.get("cuda") is context:
+            return kernel.fn(*arguments)
+        return call(kernel, *arguments)
+
+    return called
+
+
+def _shared(memory, shape, dtype):
+    """The array that the threads of a group share, by the line that asks for it."""
+    caller = sys._getframe(1)
+    place = caller.f_code, caller.f_lineno
+    if place not in memory._allocations:
+        memory._allocations[place] = np.empty(shape, dtype)
+    return memory._allocations[place]
+
+
 def _type_of(argument):
     """Type of an argument and its number of axes, 0 for a number, as text."""
     if isinstance(argument, bool | int | float):
@@ -54,39 +81,42 @@ def _type_of(argument):
 
 def _run(manager, grid_point, *arguments):
     """Run one group of threads."""
-    if {"syncthreads", "other_lane"} & set(manager._f.__code__.co_names):
-        _together(manager, grid_point, arguments)
-    else:
-        _in_turn(manager, grid_point, arguments)
-
-
-def _in_turn(manager, grid_point, arguments):
     from numba.cuda.simulator.kernelapi import Dim3
 
-    thread = threading.current_thread()
+    thread, function = threading.current_thread(), manager._f
     thread._manager, thread.blockIdx = manager, Dim3(*grid_point)
-    for place in np.ndindex(*manager._block_dim):
-        thread.threadIdx = Dim3(*place)
-        manager._f(*arguments)
+    places, given = _places(manager._block_dim), [_bare(argument) for argument in arguments]
+    if {"syncthreads", "other_lane"} & set(function.__code__.co_names):
+        _together(thread, places, function, given)
+        return
+    for thread.threadIdx in places:
+        function(*given)
 
 
-def _together(manager, grid_point, arguments):
-    from numba.cuda.simulator.kernel import BlockThread
+def _bare(argument):
+    """The array of NumPy in a wrapper of the simulator; anything else as it is."""
+    from numba.cuda.simulator.cudadrv.devicearray import FakeWithinKernelCUDAArray
 
-    def run():
-        try:
-            manager._f(*arguments)
-        except BaseException:
-            manager.barrier.abort()
-            raise
+    return argument._item._ary if isinstance(argument, FakeWithinKernelCUDAArray) else argument
 
-    places = list(np.ndindex(*manager._block_dim))
-    manager.barrier = threading.Barrier(len(places))
-    threads = [BlockThread(run, manager, grid_point, place, manager._debug) for place in places]
-    for thread in threads:
-        thread.start()
-    for thread in threads:
-        thread.join()
-    failures = [thread.exception for thread in threads if thread.exception]
-    for error, trace in failures:
-        raise error.with_traceback(trace)
+
+@cache
+def _places(shape):
+    """Places of the threads of a group."""
+    from numba.cuda.simulator.kernelapi import Dim3
+
+    return [Dim3(*place) for place in np.ndindex(*shape)]
+
+
+def _together(thread, places, function, given):
+    """Run the threads of a group from barrier to barrier, every other time the last one first: what
+    lacks a barrier then reads what is not there yet, or no more."""
+    thread.syncthreads = getcurrent().switch
+    lanes = [(place, greenlet(function)) for place in places]
+    while lanes:
+        for thread.threadIdx, lane in lanes:
+            lane.switch(*given)
+        given = ()
+        waiting = [one for one in reversed(lanes) if not one[1].dead]
+        assert len(waiting) in (0, len(lanes)), "threads wait for one that has ended"
+        lanes = waiting

@@ -6,6 +6,7 @@ import shutil
 import subprocess
 import sys
 import tomllib
+from functools import cache
 from importlib.metadata import PackageNotFoundError, packages_distributions, requires
 from pathlib import Path
 
@@ -43,9 +44,13 @@ def requirements_of(extra):
     return found
 
 
-def installed_with(names):
-    """Names of all distributions that these bring, as far as they are installed here."""
-    found, waiting = set(), list(names)
+@cache
+def installed_with_docs():
+    """Names of all distributions that the package and its extra `docs` bring, as far as they are
+    installed here."""
+    found = set()
+    waiting = [Requirement(text).name for text in PROJECT["dependencies"]]
+    waiting += requirements_of("docs")
     while waiting:
         name = re.sub(r"[-_.]+", "-", waiting.pop()).lower()
         if name in found:
@@ -59,11 +64,18 @@ def installed_with(names):
     return found
 
 
+@cache
+def owners_of_modules():
+    """Names of the distributions that have a module, by its name."""
+    return packages_distributions()
+
+
 def test_every_extra_with_a_hint_has_a_pattern():
     """An extra that a message of the program names is looked for in the cells."""
     named = set()
-    for file in (ROOT / "src").rglob("*.py"):
-        for call in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+    texts = (file.read_text(encoding="utf-8") for file in (ROOT / "src").rglob("*.py"))
+    for text in (one for one in texts if "install_hint" in one):
+        for call in ast.walk(ast.parse(text)):
             if isinstance(call, ast.Call) and getattr(call.func, "id", "") == "install_hint":
                 named.add(call.args[1].value if len(call.args) > 1 else "frames")
     assert named <= set(NEEDED_EXTRAS.values())
@@ -82,8 +94,7 @@ def test_extra_docs_brings_what_cells_call(page):
 @pytest.mark.parametrize("page", CELLS)
 def test_extra_docs_brings_what_cells_import(page):
     """Every import of a cell is of the standard library, a dependency or of the extra."""
-    names = [Requirement(text).name for text in PROJECT["dependencies"]]
-    brought = installed_with(names + requirements_of("docs")) | {"lasersph", "ipython"}
+    brought = installed_with_docs() | {"lasersph", "ipython"}
     for cell in CELLS[page]:
         if cell.lstrip().startswith("%%"):
             continue
@@ -91,7 +102,7 @@ def test_extra_docs_brings_what_cells_import(page):
             modules = [alias.name for alias in node.names] if isinstance(node, ast.Import) else []
             modules += [node.module] if isinstance(node, ast.ImportFrom) else []
             for module in {name.partition(".")[0] for name in modules}:
-                owners = packages_distributions().get(module, [module])
+                owners = owners_of_modules().get(module, [module])
                 owned = {re.sub(r"[-_.]+", "-", one).lower() for one in owners}
                 assert module in sys.stdlib_module_names or owned & brought, module
 

@@ -84,20 +84,25 @@ def test_a_worker_that_always_dies(tmp_path, monkeypatch):
     assert table.rows[0].reason == "its worker ended with signal 9 (tried 2 times)"
 
 
-@pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
-def test_stopped_command(undisturbed, tmp_path, number, code):
+def test_stopped_command(undisturbed, tmp_path):
     """Ctrl-C and SIGTERM end all runs with checkpoints and say how to go on; the same command
     does."""
     plan, folder = tmp_path / "plan.toml", tmp_path / "out"
     plan.write_text(plan_of().text)
     command = [sys.executable, "-m", "lasersph", "sweep", str(plan), "--out", str(folder)]
     command += ["--workers", "2", "--threads", "1"]
-    process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
-    wait_until(process, lambda: list(folder.glob("runs/*/checkpoint/*")))
-    process.send_signal(number)
-    _, said = process.communicate(timeout=LONGEST_WAIT)
-    assert process.returncode == code and f"continue with: lasersph sweep {plan} --out" in said
-    assert not list(folder.glob("runs/*/.lock"))
+
+    def checkpoints():
+        return set(folder.glob("runs/*/checkpoint/*"))
+
+    for number, code in ((signal.SIGINT, 130), (signal.SIGTERM, 143)):
+        before = checkpoints()
+        process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
+        wait_until(process, lambda before=before: checkpoints() - before)
+        process.send_signal(number)
+        _, said = process.communicate(timeout=LONGEST_WAIT)
+        assert process.returncode == code and f"continue with: lasersph sweep {plan} --out" in said
+        assert not list(folder.glob("runs/*/.lock"))
     again = subprocess.run(command, capture_output=True, text=True, timeout=LONGEST_WAIT)
     assert again.returncode == 0, again.stderr
     assert "3 of 3 runs complete" in again.stdout

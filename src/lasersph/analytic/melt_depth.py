@@ -130,8 +130,9 @@ def melt_depth(
     if most > curve.nodes[-1]:
         curve = _Curve(enthalpy, temperature, potential, melt_fraction, most)
 
-    h = np.zeros((columns.size, faces.size - 1))
-    deepest, start, end, hottest = 0.0, np.nan, np.nan, float(curve.temperature(h[0, 0]))
+    h = np.zeros(block.shape)
+    surface = curve.temperature(h[:, 0])
+    deepest, start, end, hottest = 0.0, np.nan, np.nan, float(surface[0])
     # lateral conduction is explicit, stable up to 0.5 width^2 / D
     lateral_limit = np.inf if column_width is None else 0.4 * column_width**2 / diffusivity
     schedule = _Schedule(times, end_time, lateral_limit)
@@ -140,9 +141,9 @@ def melt_depth(
     while now < end_time:
         step = schedule.step(now)
         # light by the reflectivity of the surface before the step, then one implicit step
-        absorbed = columns * (1.0 - reflectivity(curve.temperature(h[:, 0]), now, now + step))
+        absorbed = columns * (1.0 - reflectivity(surface, now, now + step))
         heat = np.outer(absorbed * delivered(now, now + step), absorbed_share)
-        h = block.advance(h, heat, step, curve)
+        h = block.advance(h.ravel(), heat.ravel(), step, curve).reshape(block.shape)
         now += step
         surface = curve.temperature(h[:, 0])
 
@@ -180,8 +181,8 @@ class _Curve:
             v = np.asarray(values, float)
             last = v[-1] + (v[-1] - v[-2]) / (h[-1] - h[-2]) * (far - h[-1])
             self.columns[name] = np.append(v, last if name != "f" else v[-1])
-        self.slope = np.diff(self.columns["theta"]) / np.diff(self.nodes)
-        self.heating = np.diff(self.columns["T"]) / np.diff(self.nodes)
+        self.slope = self._slopes(self.columns["theta"])
+        self.heating = self._slopes(self.columns["T"])
 
     def temperature(self, h):
         return np.interp(h, self.nodes, self.columns["T"])
@@ -193,14 +194,15 @@ class _Curve:
         return np.interp(h, self.nodes, self.columns["f"])
 
     def potential_slope(self, h):
-        return self.slope[self._segment(h)]
+        return self.slope[self.nodes.searchsorted(h, side="right")]
 
     def temperature_slope(self, h):
-        return self.heating[self._segment(h)]
+        return self.heating[self.nodes.searchsorted(h, side="right")]
 
-    def _segment(self, h):
-        k = np.searchsorted(self.nodes, h, side="right") - 1
-        return np.minimum(np.maximum(k, 0), self.slope.size - 1)
+    def _slopes(self, values):
+        """Slope of each segment after its first node, and before the first and after the last."""
+        inside = np.diff(values) / np.diff(self.nodes)
+        return np.concatenate([inside[:1], inside, inside[-1:]])
 
 
 def _slanted(potential: Array, share: float = 0.02) -> Array:
@@ -217,64 +219,60 @@ def _slanted(potential: Array, share: float = 0.02) -> Array:
 class _Block:
     """Columns of cells; advance() takes one step, conserving energy to the solver's tolerance.
 
+    The cells lie in one row, column after column, with no conductance from one to the next.
+
     Attributes:
         evaporated: (columns,) mass that has left [kg/m^2].
     """
 
     def __init__(
-        self,
-        faces: Array,
-        columns: int,
-        density: float,
-        width: float | None,
-        vapor: Vapor | None,
+        self, faces: Array, columns: int, density: float, width: float | None, vapor: Vapor | None
     ):
         self.vapor, self.evaporated = vapor, np.zeros(columns)
-        self.mass = density * np.diff(faces)
-        centers = 0.5 * (faces[1:] + faces[:-1])
-        self.conductance = 1.0 / np.diff(centers)
-        self.outward = np.append(self.conductance, 0.0) + np.append(0.0, self.conductance)
-        self.height, self.width, self.columns = np.diff(faces), width, columns
+        height = np.diff(faces)
+        self.height, self.width, self.shape = height, width, (columns, height.size)
+        self.mass = np.tile(density * height, columns)
+        between = np.append(1.0 / np.diff(0.5 * (faces[1:] + faces[:-1])), 0.0)
+        self.outward = np.tile(between + np.append(0.0, between[:-1]), columns)
+        self.conductance = np.tile(between, columns)[:-1]
+        self.flow = np.zeros(self.mass.size + 1)
         from scipy.linalg import get_lapack_funcs  # loads as long as all else that reads a case
 
         self.solve_tridiagonal: Any = get_lapack_funcs("gtsv", dtype=np.float64)
 
     def _outflow(self, theta: Array) -> Array:
         """Heat leaving each cell up and down [W/m^2]."""
-        flow = (theta[:, :-1] - theta[:, 1:]) * self.conductance
-        out = np.empty_like(theta)
-        out[:, 0], out[:, -1] = flow[:, 0], -flow[:, -1]
-        np.subtract(flow[:, 1:], flow[:, :-1], out=out[:, 1:-1])
-        return out
+        down = self.flow[1:-1]
+        np.subtract(theta[:-1], theta[1:], out=down)
+        down *= self.conductance
+        return self.flow[1:] - self.flow[:-1]
 
     def _lateral_inflow(self, theta: Array) -> Array | float:
         """Heat entering each cell from the columns beside it [W/m^2 of surface]."""
         if self.width is None:
             return 0.0
+        theta = theta.reshape(self.shape)
         inflow = np.zeros_like(theta)
         flow = np.diff(theta, axis=0) * self.height / self.width**2
         inflow[:-1] += flow
         inflow[1:] -= flow
-        return inflow
+        return inflow.ravel()
 
-    def _evaporation(self, h: Array, curve: _Curve) -> tuple[Array | float, Array | float]:
+    def _evaporation(self, vapor: Vapor, h: Array, curve: _Curve) -> tuple[Array, Array]:
         """Mass flux (columns,), and power that cells lose by vapor and by the metal that moves up
-        through them (columns, cells) [W/m^2]."""
-        if self.vapor is None:
-            return 0.0, 0.0
+        through them [W/m^2]."""
+        h = h.reshape(self.shape)
         lost = np.zeros_like(h)
-        m, q = self.vapor(curve.temperature(h[:, 0]))
+        m, q = vapor(curve.temperature(h[:, 0]))
         lost[:, :-1] = m[:, None] * (h[:, :-1] - h[:, 1:])
         lost[:, 0] += q
-        return m, lost
+        return m, lost.ravel()
 
-    def _evaporation_slopes(self, h: Array, curve: _Curve) -> tuple[Array, Array]:
+    def _evaporation_slopes(self, vapor: Vapor, h: Array, curve: _Curve) -> tuple[Array, Array]:
         """Mass flux, and slope in h of the power that the uppermost cells lose, both (columns,)."""
-        if self.vapor is None:
-            return np.zeros(self.columns), np.zeros(self.columns)
         T = curve.temperature(h[:, 0])
-        m, q = self.vapor(T)
-        m_near, q_near = self.vapor(T + 1.0)
+        m, q = vapor(T)
+        m_near, q_near = vapor(T + 1.0)
         change = q_near - q + (m_near - m) * (h[:, 0] - h[:, 1])
         return m, change * curve.temperature_slope(h[:, 0])
 
@@ -289,21 +287,25 @@ class _Block:
         tolerance = 1e-5 * np.abs(gain).sum() + 1e-9 * np.abs(capacity * h0).sum()
 
         def residual(h):
-            _, lost = self._evaporation(h, curve)
-            return capacity * (h - h0) + self._outflow(curve.potential(h)) + lost - gain
+            r = h - h0
+            r *= capacity
+            r += self._outflow(curve.potential(h))
+            if self.vapor is not None:
+                r += self._evaporation(self.vapor, h, curve)[1]
+            r -= gain
+            return r, np.abs(r).sum()
 
-        h, r = h0, residual(h0)
+        h, (r, size) = h0, residual(h0)
         for _ in range(12):
-            size = np.abs(r).sum()
             if size <= tolerance:
                 break
-            m, surface = self._evaporation_slopes(h, curve)
-            change = self._newton_change(curve.potential_slope(h), capacity, r, m, surface)
+            change = self._newton_change(h, capacity, r, curve)
             # line search: the first step that lowers the residual
+            before = size
             for damping in (1.0, 0.5, 0.25, 0.1):
                 trial = h + damping * change
-                r = residual(trial)
-                if np.abs(r).sum() < size:
+                r, size = residual(trial)
+                if size < before:
                     break
             h = trial
         else:
@@ -311,29 +313,30 @@ class _Block:
                 # Newton's method has not converged
                 half = self.advance(h0, 0.5 * heat, 0.5 * step, curve, halvings - 1)
                 return self.advance(half, 0.5 * heat, 0.5 * step, curve, halvings - 1)
-        self.evaporated += step * self._evaporation(h, curve)[0]
+        if self.vapor is not None:
+            self.evaporated += step * self._evaporation(self.vapor, h, curve)[0]
         # what is left of the residual goes into the cells, so that no energy is lost
         return h - r / capacity
 
-    def _newton_change(
-        self, slope: Array, capacity: Array, r: Array, m: Array, surface: Array
-    ) -> Array:
+    def _newton_change(self, h: Array, capacity: Array, r: Array, curve: _Curve) -> Array:
         """Solve (capacity + outflow slope) change = -r, all columns as one tridiagonal system."""
-        # d(out)/dh of the cell itself, with metal that moves up and the vapor at the surface
-        g = self.conductance
+        # d(out)/dh of the cell itself and of those above and below
+        slope = curve.potential_slope(h)
         diagonal = capacity + slope * self.outward
-        diagonal[:, :-1] += m[:, None]
-        diagonal[:, 0] += surface
-        # nothing couples the lowest cell of a column with the uppermost of the next
-        lower, upper = np.zeros_like(slope), np.zeros_like(slope)
-        lower[:, :-1] = -g * slope[:, :-1]
-        upper[:, :-1] = -g * slope[:, 1:] - m[:, None]
-        *_, change, info = self.solve_tridiagonal(
-            lower.ravel()[:-1], diagonal.ravel(), upper.ravel()[:-1], -r.ravel()
-        )
+        beside = slope[:-1] * self.conductance
+        lower, upper = -beside, -self.conductance * slope[1:]
+        if self.vapor is not None:
+            # metal that moves up and the vapor at the surface
+            m, surface = self._evaporation_slopes(self.vapor, h.reshape(self.shape), curve)
+            rising = np.zeros(self.shape)
+            rising[:, :-1] = m[:, None]
+            diagonal += rising.ravel()
+            diagonal[:: self.shape[1]] += surface
+            upper -= rising.ravel()[:-1]
+        *_, change, info = self.solve_tridiagonal(lower, diagonal, upper, -r, 1, 1, 1, 1)
         if info != 0:
             raise ArithmeticError(f"tridiagonal solve failed (LAPACK dgtsv info {info})")
-        return change.reshape(r.shape)
+        return change
 
 
 class _Schedule:
@@ -391,10 +394,7 @@ def _cell_faces(light: float, span: float, alpha: float, diffusivity: float, n: 
 def _fronts(faces: Array, fraction: Array, level: float) -> Array:
     """(columns,) depth of the deepest cell in which the fraction exceeds the level, that cell by
     its share [m]."""
-    depths = np.zeros(fraction.shape[0])
     molten = fraction > level
-    for number in np.flatnonzero(molten.any(axis=1)):
-        k = np.flatnonzero(molten[number])[-1]
-        share = 1.0 if level > 0.0 else fraction[number, k]
-        depths[number] = faces[k] + share * (faces[k + 1] - faces[k])
-    return depths
+    k = fraction.shape[1] - 1 - molten[:, ::-1].argmax(axis=1)
+    share = 1.0 if level > 0.0 else fraction[np.arange(k.size), k]
+    return np.where(molten.any(axis=1), faces[k] + share * (faces[k + 1] - faces[k]), 0.0)

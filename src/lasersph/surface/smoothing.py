@@ -61,10 +61,12 @@ class Smoothing:
     def solve(self, values: Array, pinned: Array) -> Array:
         """F of values (count,) with heights (pins,) of the pinned ends."""
         (D, P), (D_T, P_T) = (self.differences, self.pins), self.transposed
-        f = self.inverse.solve(values + P_T @ pinned)
+        has_pins = pinned.size > 0
+        f = self.inverse.solve(values + (P_T @ pinned if has_pins else 0.0))
         # iterative refinement: each pass solves for the residual of the one before
         for _ in range(REFINEMENTS):
-            f = f + self.inverse.solve(values - f - D_T @ (D @ f) - P_T @ (P @ f - pinned))
+            residual = values - f - D_T @ (D @ f)
+            f = f + self.inverse.solve(residual - P_T @ (P @ f - pinned) if has_pins else residual)
         return f
 
 
