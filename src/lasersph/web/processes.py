@@ -28,6 +28,9 @@ LONGEST_STEM = 56
 LOOKS, PAUSE = 600, 0.1
 """How often and how long [s] a new process is looked at until it holds its folder or has ended."""
 
+BEGUN = ("resolved.json", "case.toml")
+"""Files that a folder has, in this order, once its run has begun."""
+
 
 class Processes:
     """The processes that this server started."""
@@ -110,7 +113,7 @@ class Processes:
         self._started[folder] = (process, said)
         # Wait until it holds its folder, or has ended with a message.
         for _ in range(LOOKS):
-            if (folder / "resolved.json").exists() and is_computing(folder):
+            if all((folder / name).exists() for name in BEGUN) and is_computing(folder):
                 return
             try:
                 process.wait(PAUSE)
