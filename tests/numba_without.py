@@ -45,7 +45,7 @@ def _loops(total):
     backend.pair_values(_weight, neighbors, {}, weights)
     rows = row_renewal.PairRows(*found, weights)
     renewed = row_renewal.RenewedRows(backend, rows)
-    renewed.renew(key_order.rows_where((T > 0.5).astype(np.uint8), 1.0), rows)
+    renewed.update(key_order.rows_where((T > 0.5).astype(np.uint8), 1.0), rows)
     total += [renewed.row_start, renewed.row_end, *renewed.first]
     total += key_order.rows_by_key((T * 7).astype(np.uint32), 7)
     order = np.lexsort((position[1], np.floor(position[0] * 60)))

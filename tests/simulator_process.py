@@ -26,6 +26,7 @@ KNOWN = "kernels-of-tests.json"
 """File beside the generated loops: what the assembly of each kernel of the last tests was like."""
 FILES = ("unit/compute/test_strict_arrays.py", "unit/compute/test_pair_loops.py",
          "unit/compute/test_search.py", "unit/compute/test_row_renewal.py",
+         "unit/compute/test_row_ends.py",
          "unit/compute/test_graph.py", "unit/compute/test_looking.py",
          "unit/compute/test_tables.py",
          "unit/particles/test_ghosts.py", "unit/solvers/melt_pool/test_near_melt.py",

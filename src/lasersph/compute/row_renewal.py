@@ -90,7 +90,7 @@ class RenewedRows:
         """The rows of the first list."""
         return PairRows(self._start, *self._head(self._first))
 
-    def renew(self, rows: Rows, found: PairRows) -> None:
+    def update(self, rows: Rows, found: PairRows) -> None:
         """Put rows of another list in the place of those that there are.
 
         Args:

@@ -270,39 +270,9 @@ def test_errors(backend):
     with pytest.raises(ValueError, match="row 7 of 3"):
         rows = backend.asarray([7], "index")
         backend.pair_sum(flow, neighbors, {"T": T, "g_ij": g}, out, rows=rows)
-    neighbors.row_end = backend.asarray([1, 3], "offset")
-    with pytest.raises(ValueError, match="row_end has 2 uint64 for 3 rows"):
-        backend.pair_sum(flow, neighbors, {"T": T, "g_ij": g}, out)
     neighbors.row_start = backend.asarray([0, 1, 3, 4], "index")
     with pytest.raises(ValueError, match="row_start must be uint64"):
         backend.pair_sum(flow, neighbors, {"T": T, "g_ij": g}, out)
-
-
-def test_rows_with_ends_of_their_own(backend):
-    """Rows may end before the next one begins, and lie in any order."""
-    neighbors, T, out = three(backend), backend.asarray([1.0, 2, 5]), backend.zeros(3)
-    g, values = backend.asarray([1.0, 2, 3, 4]), backend.zeros(4)
-    backend.pair_sum(flow, neighbors, {"T": T, "g_ij": g}, out)
-    whole = backend.to_host(out).tolist()
-    # without the middle particle's second neighbor, then without all of the others
-    cases = ([1, 2, 4], [whole[0], -2.0, whole[2]]), ([0, 3, 3], [0.0, whole[1], 0.0])
-    for ends, expected in cases:
-        neighbors.row_end = backend.asarray(ends, "offset")
-        backend.pair_sum(flow, neighbors, {"T": T, "g_ij": g}, out)
-        assert backend.to_host(out).tolist() == expected
-        backend.fill(values, -1.0)
-        backend.pair_values(double, neighbors, {"g_ij": g}, values)
-        stored = [2.0 * (p + 1) if p < ends[row] else -1.0 for p, row in enumerate((0, 1, 1, 2))]
-        assert backend.to_host(values).tolist() == stored
-    # the first row's pair behind all others
-    neighbors.row_start = backend.asarray([3, 1, 0, 4], "offset")
-    neighbors.row_end = backend.asarray([4, 3, 0], "offset")
-    backend.pair_sum(flow, neighbors, {"T": T, "g_ij": g}, out)
-    assert backend.to_host(out).tolist() == [4.0 * (2.0 - 1.0), whole[1], 0.0]
-
-
-def double(g_ij):
-    return 2.0 * g_ij
 
 
 def waved(T, period):

@@ -35,7 +35,7 @@ def test_rows_of_both(backend):
     """Rows 0 and 2 are renewed, with their values; row 1 stays."""
     renewed = RenewedRows(backend, rows(backend, [5], [6, 6, 6], [0, 1]))
     assert lists_of(backend, renewed)[0] == [[5], [6, 6, 6], [0, 1]]
-    renewed.renew(numbers(backend, 0, 2), rows(backend, [1, 2], [0], [7, 8]))
+    renewed.update(numbers(backend, 0, 2), rows(backend, [1, 2], [0], [7, 8]))
     neighbors, values = lists_of(backend, renewed)
     assert neighbors == [[1, 2], [6, 6, 6], [7, 8]]
     assert values == [[1.0, 2.0], [16.0, 16.0, 16.0], [27.0, 28.0]]
@@ -45,7 +45,7 @@ def test_what_was_first_stays(backend):
     """The first list is still there, however often its rows are renewed."""
     renewed = RenewedRows(backend, rows(backend, [5], [6, 6, 6], [0, 1]))
     for one in ([[1]] * 3, [[2, 2, 2]] * 3):
-        renewed.renew(numbers(backend, 0, 1, 2), rows(backend, *one))
+        renewed.update(numbers(backend, 0, 1, 2), rows(backend, *one))
     first = [backend.to_host(part).tolist() for part in renewed.first]
     assert first == [[0, 1, 4, 6], [5, 6, 6, 6, 0, 1], [5.0, 16.0, 16.0, 16.0, 20.0, 21.0]]
 
@@ -55,7 +55,7 @@ def test_place_is_kept_while_a_row_fits(backend):
     renewed = RenewedRows(backend, rows(backend, [5], [0], [1]))
     begins, longer = [], SPARE + 1
     for length in (SPARE, longer, 1, longer + 1):
-        renewed.renew(numbers(backend, 1), rows(backend, [0], [9] * length))
+        renewed.update(numbers(backend, 1), rows(backend, [0], [9] * length))
         assert lists_of(backend, renewed)[0] == [[5], [9] * length, [1]]
         begins.append(int(backend.to_host(renewed.row_start)[1]))
     assert begins == [3, 3, 3, 3 + longer]
@@ -66,7 +66,7 @@ def test_arrays_stay_while_pairs_change_little(backend):
     renewed = RenewedRows(backend, rows(backend, *[[0] * 50] * 3))
     kept = []
     for length in (50, 50, 54, 56, 57):
-        renewed.renew(numbers(backend, 1), rows(backend, [0], [9] * length))
+        renewed.update(numbers(backend, 1), rows(backend, [0], [9] * length))
         kept.append((renewed.neighbor, renewed.values))
     assert all(one is other for now in kept[1:4] for one, other in zip(now, kept[0], strict=True))
     assert kept[4][0] is not kept[0][0]
@@ -77,7 +77,7 @@ def test_more_than_there_is_memory_for(backend):
     renewed = RenewedRows(backend, rows(backend, [5], [0], [1]))
     for row in range(3):
         new = [list(range(10 * row, 10 * row + 4 * RESERVE))] * 3
-        renewed.renew(numbers(backend, row), rows(backend, *new))
+        renewed.update(numbers(backend, row), rows(backend, *new))
     assert lists_of(backend, renewed)[0] == [[0, 1, 2, 3], [10, 11, 12, 13], [20, 21, 22, 23]]
     assert backend.to_host(renewed.first.neighbor).tolist() == [5, 0, 1]
 
@@ -85,9 +85,9 @@ def test_more_than_there_is_memory_for(backend):
 def test_no_rows(backend):
     """Without a row nothing changes; empty rows are rows too."""
     renewed = RenewedRows(backend, rows(backend, [], [3], []))
-    renewed.renew(numbers(backend), rows(backend, [1]))
+    renewed.update(numbers(backend), rows(backend, [1]))
     assert lists_of(backend, renewed)[0] == [[], [3], []]
-    renewed.renew(numbers(backend, 0, 1), rows(backend, [1], []))
+    renewed.update(numbers(backend, 0, 1), rows(backend, [1], []))
     assert lists_of(backend, renewed)[0] == [[1], [], []]
 
 
@@ -95,13 +95,13 @@ def test_refused(backend):
     """Rows that one of the lists does not have, and other reals."""
     renewed = RenewedRows(backend, rows(backend, [1], [0], [0]))
     with pytest.raises(ValueError, match="row 2 is renewed, a list has 2"):
-        renewed.renew(numbers(backend, 0, 2), rows(backend, [1], [0]))
+        renewed.update(numbers(backend, 0, 2), rows(backend, [1], [0]))
     with pytest.raises(ValueError, match="row 3 is renewed, a list has 3"):
-        renewed.renew(numbers(backend, 3), rows(backend, [1], [0], [0], [1]))
+        renewed.update(numbers(backend, 3), rows(backend, [1], [0], [0], [1]))
     start, neighbor, values = rows(backend, [1])
     singles = PairRows(start, neighbor, backend.single(values))
     with pytest.raises(ValueError, match="float32 in a list of float64"):
-        renewed.renew(numbers(backend, 0), singles)
+        renewed.update(numbers(backend, 0), singles)
 
 
 @pytest.mark.parametrize("seed", [1, 2])
@@ -117,7 +117,7 @@ def test_many_rows(backend, seed):
     renewed = RenewedRows(backend, rows(backend, *there))
     for _ in range(4):
         new, chosen = some_lists(), np.flatnonzero(random.integers(0, 2, count))
-        renewed.renew(numbers(backend, *chosen), rows(backend, *new))
+        renewed.update(numbers(backend, *chosen), rows(backend, *new))
         for row in chosen:
             there[row] = new[row]
         assert lists_of(backend, renewed)[0] == there

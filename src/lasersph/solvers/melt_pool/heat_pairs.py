@@ -58,7 +58,7 @@ class HeatPairs:
         if self._rows is None:
             there = pairs.neighbors.row_start, pairs.neighbors.neighbor, pairs.weights
             self._rows = RenewedRows(backend, PairRows(*there))
-        self._rows.renew(rows, PairRows(row_start, neighbor, block.heat_weights))
+        self._rows.update(rows, PairRows(row_start, neighbor, block.heat_weights))
         now = {name: getattr(self._rows, name) for name in ("row_start", "row_end", "neighbor")}
         pairs.neighbors, pairs.weights = replace(pairs.neighbors, **now), self._rows.values
 
