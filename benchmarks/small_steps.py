@@ -19,7 +19,9 @@ import os
 import subprocess
 import sys
 from collections.abc import Callable
+from operator import itemgetter
 from pathlib import Path
+from statistics import median
 from time import process_time
 from typing import Any
 
@@ -161,7 +163,7 @@ def main() -> None:
     """Measure this tree, beside another where one is given."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--beside", type=Path, help="root of another tree of this package")
-    parser.add_argument("--turns", type=int, default=2, help="processes for each tree and case")
+    parser.add_argument("--turns", type=int, default=6, help="processes for each tree and case")
     parser.add_argument("--case", choices=CASES, action="append", help="only this case")
     parser.add_argument("--measure", choices=CASES, help=argparse.SUPPRESS)
     given = parser.parse_args()
@@ -172,17 +174,18 @@ def main() -> None:
     trees = {"this tree": here} | ({"beside": given.beside.resolve()} if given.beside else {})
     for case in given.case or CASES:
         print(case)
-        best: dict[str, dict[str, Any]] = {}
+        turns: dict[str, list[dict[str, Any]]] = {title: [] for title in trees}
         for _ in range(given.turns):
             for title, tree in trees.items():
-                found = _in_tree(tree, case)
-                if title not in best or found["milliseconds"] < best[title]["milliseconds"]:
-                    best[title] = found
-        for title, found in best.items():
-            _print(title, found)
-        if len(best) == 2:
-            here_ms, there_ms = (best[title]["milliseconds"] for title in trees)
-            print(f"  {there_ms / here_ms:.2f} times faster")
+                turns[title].append(_in_tree(tree, case))
+        for title, found in turns.items():
+            _print(title, min(found, key=itemgetter("milliseconds")))
+        if given.beside:
+            # of turns next to each other: a machine's speed changes from one to the next
+            here_ms, there_ms = ([one["milliseconds"] for one in turns[title]] for title in trees)
+            ratios = sorted(b / a for a, b in zip(here_ms, there_ms, strict=True))
+            words = f"{median(ratios):.2f} times as fast, {ratios[0]:.2f} to {ratios[-1]:.2f}"
+            print(f"  {words} in {len(ratios)} turns")
 
 
 if __name__ == "__main__":
