@@ -90,7 +90,7 @@ def test_heat_and_axis_of_a_pool():
     go(solver, 4e-9)
     r, z = place_of(solver)
     u, w = host(solver, "velocity")
-    row = np.abs(z + 7.5e-8) < 1e-9
+    row = np.abs(z + 2.5e-8) < 1e-9
     order = np.argsort(r[row])[:4]
     first = (u[row] / r[row])[order]
     assert np.abs(u).max() > 0.3

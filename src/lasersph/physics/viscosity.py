@@ -11,16 +11,28 @@ That is div(nu grad v); the stress is 2 rho nu D, so that the transposed gradien
 
 where div v = 0. Without it a melt that turns as a whole would feel its viscosity. The published
 scheme is explicit; the implicit one is solved in `solvers.melt_pool.viscous_step`.
+
+What rests is rigid, its m without end: the harmonic mean doubles the weight of a pair, as if the
+wall lay halfway between both, where the melt ends on average. With the m of melt, as published, a
+layer on a lattice slips on a wall 0.6 spacings behind its end; so it is within 0.1 of it.
 """
 
 from __future__ import annotations
 
 from lasersph.compute.vectors import interpolate, matmul, matvec, outer, transpose
 
+RIGID = 1e9
+"""Viscosity of what rests over that at the liquidus. Rounding: without end but for 1e-9."""
+
 
 def relative_viscosity(T, T_nodes, m_nodes):
     """Viscosity of the melt at T over that at the liquidus [1]."""
     return interpolate(T, T_nodes, m_nodes)
+
+
+def stiffness(m, fluid):
+    """Relative viscosity of what flows, that of a rigid body where nothing does [1]."""
+    return m if fluid > 0.0 else RIGID
 
 
 def viscous_weight(g_ij, m_i, m_j):

@@ -1,7 +1,9 @@
 """Velocity and temperature of a surface in the middle of its columns, from the particles near it.
 
 Fits to what the particles near the surface have, linear along it. Velocities are carried on to it
-by half their ghosts' jump, which leaves a parabola of the depth: that is fitted too.
+by half their ghosts' jump, which leaves a parabola of the depth: that is fitted too. Light is
+absorbed within the first row, so that its temperature is that of the surface; the second row, which
+fills gaps of the first, has a part that is linear in the depth.
 """
 
 from __future__ import annotations
@@ -19,14 +21,15 @@ from lasersph.surface.loops import number_of
 TEMPERATURE_DEPTH = 1.5
 """Particles whose temperature is that of the surface lie within as many spacings of it. Geometry:
 two rows; with one a column is empty where particles part."""
+FIRST_ROW = 0.5
+"""Depth of the first row, in spacings. Geometry: half of it lies above its middle."""
 VELOCITY_DEPTH = 2.5
 """The same for velocities, which are carried on with their curvature. Geometry: a parabola of the
 depth takes two rows."""
 LEAST_SHARE = 0.05
 """Least weight of such a particle, which falls with its distance from the surface. Derived: the
 first row, 0.5 spacings deep, has the weight 0.67, the second at 1.5 would have none and a gap in
-the first no value; with 0.05 it has 7 %, and the temperature is that of 0.57 spacings instead of
-0.5."""
+the first no value; with 0.05 it has 7 %."""
 LEAST_DEPTH = 0.2
 """Least variance of the squares of depths, of all, with which a parabola is fitted. Guard: two rows
 have a half, one whose particles lie a tenth of a spacing off 0.13."""
@@ -60,7 +63,8 @@ def surface_velocity_of_line(
     # of the velocity, and of the temperature with the places that it is fitted to
     v_0, v_1, v_d = vector(0.0, 0.0), vector(0.0, 0.0), vector(0.0, 0.0)
     n_0, n_1, n_2 = 0.0, 0.0, 0.0
-    T_0, T_1 = 0.0, 0.0
+    n_d, n_1d, n_dd = 0.0, 0.0, 0.0
+    T_0, T_1, T_d = 0.0, 0.0, 0.0
 
     # particles of five columns, with images beyond the ends
     for a in range(center - 2, center + 3):
@@ -90,17 +94,28 @@ def surface_velocity_of_line(
                     v_d += share * d * v_j
                     # moments for the temperature, of the uppermost two layers alone
                     if layers < TEMPERATURE_DEPTH:
-                        share = share_of(layers, TEMPERATURE_DEPTH, near)
+                        share, d = share_of(layers, TEMPERATURE_DEPTH, near), layers - FIRST_ROW
                         n_0 += share
                         n_1 += share * r
                         n_2 += share * r * r
+                        n_d += share * d
+                        n_1d += share * r * d
+                        n_dd += share * d * d
                         T_0 += share * T[j]
                         T_1 += share * r * T[j]
+                        T_d += share * d * T[j]
 
-    # linear fit of the temperature, the mean where the particles lie on one spot
-    T_s, det = T_0 / max(n_0, 1.0e-300), n_0 * n_2 - n_1 * n_1
-    if det > 1.0e-9 * n_0 * n_0:
-        T_s = (n_2 * T_0 - n_1 * T_1) / det
+    # temperature of the first row, linear along the surface and with the depth; without the depth
+    # where all are as deep, and the mean where all are on one spot
+    c_0 = n_2 * n_dd - n_1d * n_1d
+    c_1 = n_1d * n_d - n_1 * n_dd
+    c_d = n_1 * n_1d - n_2 * n_d
+    det = n_0 * c_0 + n_1 * c_1 + n_d * c_d
+    if det <= LEAST_DEPTH * n_0 * n_2 * n_dd:
+        c_0, c_1, c_d, det = n_2, -n_1, 0.0, n_0 * n_2 - n_1 * n_1
+    if det <= 1.0e-9 * n_0 * c_0:
+        c_0, c_1, c_d, det = 1.0, 0.0, 0.0, max(n_0, 1.0e-300)
+    T_s = (c_0 * T_0 + c_1 * T_1 + c_d * T_d) / det
     # cofactors of 1, r, d; without the parabola where all are as deep, a mean where all are in line
     c_0 = s_2 * s_dd - s_1d * s_1d
     c_1 = s_1d * s_d - s_1 * s_dd
@@ -130,6 +145,7 @@ def surface_velocity_of_grid(
     M, N, b_d, s_dd = outer(zero, zero), outer(zero, zero), 1.0 * zero, 0.0
     # of the velocity times b and d, and of the temperature with its own b
     v_b, v_d, T_b = outer(zero, zero), 1.0 * zero, 1.0 * zero
+    N_d, n_dd, T_d = 1.0 * zero, 0.0, 0.0
 
     # particles of five by five columns, with images beyond the ends
     for q in range(25):
@@ -157,15 +173,24 @@ def surface_velocity_of_grid(
                     v_d += share * d * v_j
                     # moments for the temperature, of the uppermost two layers alone
                     if layers < TEMPERATURE_DEPTH:
-                        share = share_of(layers, TEMPERATURE_DEPTH, near)
+                        share, d = share_of(layers, TEMPERATURE_DEPTH, near), layers - FIRST_ROW
                         N += share * outer(b, b)
+                        N_d += share * d * b
+                        n_dd += share * d * d
                         T_b += share * T[j] * b
+                        T_d += share * d * T[j]
 
-    # linear fit of the temperature, the mean where the particles lie in a line
+    # temperature of the first row, linear along the surface and with the depth, which is eliminated
+    # first; without it where all are as deep, and the mean where the particles lie in a line
     first = vector(1.0, 0.0, 0.0)
+    R = N - outer(N_d, N_d) / max(n_dd, 1.0e-300)
+    T_r = T_b - N_d * (T_d / max(n_dd, 1.0e-300))
+    all_of = N[0, 0] * N[1, 1] * N[2, 2]
+    if determinant(R) <= LEAST_DEPTH * all_of:
+        R, T_r = 1.0 * N, 1.0 * T_b
     T_s = T_b[0] / max(N[0, 0], 1.0e-300)
-    if determinant(N) > 1.0e-9 * N[0, 0] * N[1, 1] * N[2, 2]:
-        T_s = dot(matvec(inverse(N), first), T_b)
+    if determinant(R) > 1.0e-9 * all_of:
+        T_s = dot(matvec(inverse(R), first), T_r)
 
     # of the velocity with a parabola of the depth, whose part is eliminated first; without it where
     # all are as deep, and a mean where they lie in a line

@@ -4,9 +4,11 @@ import numpy as np
 import pytest
 
 from lasersph.physics.viscosity import (
+    RIGID,
     forced,
     momentum,
     predict,
+    stiffness,
     transposed_force,
     transposed_terms,
     viscous_weight,
@@ -27,6 +29,13 @@ def test_pair_of_different_viscosities():
     assert viscous_weight(0.3, 1.0, 1.0) == 0.3
     assert viscous_weight(0.8, 1.0, 1.0 / 3.0) == pytest.approx(0.4)
     assert viscous_weight(0.8, 1.0 / 3.0, 1.0) == viscous_weight(0.8, 1.0, 1.0 / 3.0)
+
+
+def test_what_rests_is_rigid():
+    """Twice g m toward it, as if the wall lay halfway, and m itself of what flows."""
+    assert stiffness(0.7, 1.0) == 0.7
+    assert stiffness(0.7, 0.0) == RIGID
+    assert viscous_weight(0.3, 0.7, RIGID) == pytest.approx(2.0 * 0.3 * 0.7)
 
 
 def test_transposed_force():

@@ -13,8 +13,8 @@ COLUMNS, SPACING = 6, 2e-8
 def surface_velocity(k, rows, slope=0.0):
     """u, w, T of column k and their weight, over rows at depths in spacings, each shifted along x.
 
-    u = 3 + r + slope d + 5 d^2, w = 2 - 7 d^2, T = 100 + 10 r: r in columns from the middle of k, d
-    in spacings.
+    u = 3 + r + slope d + 5 d^2, w = 2 - 7 d^2, T = 100 + 10 r - 60 (d - 1/2): r in columns from the
+    middle of k, d in spacings.
     """
     shift = np.linspace(-0.3, 0.3, len(rows))
     place = (np.arange(COLUMNS)[:, None] + 0.5 + shift).ravel()
@@ -23,7 +23,11 @@ def surface_velocity(k, rows, slope=0.0):
     start = len(rows) * np.arange(COLUMNS + 1)
     zero = np.zeros(d.size)
     jump = zero - 2.0 * slope * d
-    u, w, T = 3.0 + r + slope * d + 5.0 * d**2, 2.0 - 7.0 * d**2, 100.0 + 10.0 * r
+    u, w, T = (
+        3.0 + r + slope * d + 5.0 * d**2,
+        2.0 - 7.0 * d**2,
+        100.0 + 10.0 * r - 60.0 * (d - 0.5),
+    )
     return surface_velocity_of_line(
         k,
         start,
@@ -44,7 +48,8 @@ def surface_velocity(k, rows, slope=0.0):
 
 @pytest.mark.parametrize("k", [0, 2, 5])
 def test_parabola_of_the_depth(k):
-    """A profile that its slope and a parabola give is carried on exactly, at ends too."""
+    """A profile that its slope and a parabola give is carried on exactly, at ends too; T is that of
+    half a spacing below the surface."""
     (u, w), T, weight = surface_velocity(k, [0.4, 1.3, 2.2], slope=11.0)
     assert u == pytest.approx(3.0, abs=1e-12)
     assert w == pytest.approx(2.0, abs=1e-12)
@@ -54,7 +59,8 @@ def test_parabola_of_the_depth(k):
 
 def test_one_row():
     """Where all particles are as deep no parabola, and without particles no weight."""
-    (u, w), _, weight = surface_velocity(2, [0.5])
+    (u, w), T, weight = surface_velocity(2, [0.5])
+    assert pytest.approx(100.0) == T
     assert u == pytest.approx(3.0 + 5.0 * 0.25)
     assert w == pytest.approx(2.0 - 7.0 * 0.25)
     assert weight > 0.0
@@ -76,12 +82,13 @@ def grid_particles(rows, columns=(6, 5)):
 
 @pytest.mark.parametrize("k", [0, 12, 29])
 def test_fit_of_a_grid(k):
-    """u = 3 + 2 r_x - r_y + 5 d^2 and T linear are carried on exactly, in corners too."""
+    """u = 3 + 2 r_x - r_y + 5 d^2 is carried on exactly, in corners too; T, linear, is that
+    of half a spacing below the surface."""
     start, x = grid_particles([0.4, 1.3, 2.2])
     r_x, r_y = x[:, 0] - (k // 5 + 0.5), x[:, 1] - (k % 5 + 0.5)
     d = -x[:, 2]
     v = np.stack([3.0 + 2.0 * r_x - r_y + 5.0 * d**2, r_y - d**2, 1.0 + 0.0 * d], axis=1)
-    T = 100.0 + 10.0 * r_x - 4.0 * r_y
+    T = 100.0 + 10.0 * r_x - 4.0 * r_y - 60.0 * (d - 0.5)
     jump = np.zeros(v.shape)
     arrays = start, np.arange(d.size), list(x), d, list(v), list(jump), T
     found, T_s, weight = surface_velocity_of_grid(k, *arrays, **GRID, **WALLS, spacing=1.0)

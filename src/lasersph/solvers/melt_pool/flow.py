@@ -79,6 +79,9 @@ class Flow:
         self._viscosity_nodes = {"T_nodes": T, "m_nodes": m}
         self._viscosity_varies = bool(np.ptp(liquid.relative_viscosity[1]) > 0.0)
         self.relative_viscosity = backend.asarray(np.ones(count))
+        # the explicit scheme is the published one, in which solid is as viscous as melt
+        self._has_rigid_walls = settings.viscosity == "implicit"
+        self._stiffness = backend.zeros(count)
         # pressure along walls that ghosts have to know of, a deviation of `wall_pressure`
         self.wall_pressure = WallPressure(particles, liquid, surface, self.relative_viscosity)
 
@@ -130,11 +133,18 @@ class Flow:
         """The block of particles that may move."""
         return self.projection.block
 
-    def update_viscosity(self, T: Array) -> None:
-        """Viscosity of the particles at their temperatures (n,) [K], and of their pairs."""
+    def update_viscosity(self, T: Array, kinds: ParticleKinds) -> None:
+        """Viscosity of the particles at their temperatures (n,) [K], and of their pairs, in which
+        what rests is rigid."""
+        backend, relative = self.backend, self.relative_viscosity
         if self._viscosity_varies:
-            relative, nodes = self.relative_viscosity, self._viscosity_nodes
-            self.backend.pointwise(viscosity.relative_viscosity, {"T": T}, relative, **nodes)
+            nodes = self._viscosity_nodes
+            backend.pointwise(viscosity.relative_viscosity, {"T": T}, relative, **nodes)
+        if self._has_rigid_walls and not kinds.is_box:
+            fields = {"m": relative, "fluid": kinds.fluid}
+            backend.pointwise(viscosity.stiffness, fields, self._stiffness)
+            self.block.weigh_viscosity(self._stiffness)
+        elif self._viscosity_varies:
             self.block.weigh_viscosity(relative)
 
     def _add_transposed_stress(self, extended: Array, kinds: ParticleKinds) -> None:

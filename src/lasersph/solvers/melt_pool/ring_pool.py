@@ -73,7 +73,7 @@ class RingPool(MeltPool):
         self.transport.carry(flow, kinds, ride, step)
         self.body.update_temperature()
         # viscosity and stress at the new temperatures
-        flow.update_viscosity(self.particles["temperature"])
+        flow.update_viscosity(self.particles["temperature"], self.kinds)
         now = self._surface_step(self.position, step)
         domain.surface.update_stress(now, block, kinds.active)
 

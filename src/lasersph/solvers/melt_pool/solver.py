@@ -244,7 +244,7 @@ class MeltPool:
         domain.surface.find(self._advected)
         block.find_pairs(self._advected, self._rows_to_find(block, self._advected), has_kernel=True)
         self.kinds.find_walls(block)
-        flow.update_viscosity(self.particles["temperature"])
+        flow.update_viscosity(self.particles["temperature"], self.kinds)
         now = self._surface_step(self._advected, step)
         domain.surface.update_stress(now, block, self.kinds.active)
         block.correct_kernel(self.kinds.active_rows)

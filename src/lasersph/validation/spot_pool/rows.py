@@ -22,6 +22,13 @@ LARGEST = {"volume": 0.7346, "depth": 205.2, "temperature": 3121.1, "speed": 2.1
 PLACE, INWARD = 775.0, 0.696
 """Place [nm] of that speed, and the largest speed inward [m/s]."""
 
+RELIEF = {
+    "depth of the dimple [nm]": ("topography", "depth_m", 1e9),
+    "displaced volume [um^3]": ("topography", "displaced_volume_m3", 1e18),
+    "largest volume of melt [um^3]": ("melt", "volume_max_m3", 1e18),
+}
+"""Room and key of the summary of both, and the factor to the unit, by quantity."""
+
 
 def compare(study: Study) -> None:
     """Judge the finest run beside the largest values of finite volumes."""
@@ -38,6 +45,8 @@ def compare(study: Study) -> None:
     half = study.run(f"{spacing}nm-half", *settings, "time.step=25 ps")
     change = speed_of(half) / speed_of(runs[spacing]) - 1.0
     study.add("half_step", abs(change), spacing=spacing)
+    for spacing in study.plan.quarters_nm:
+        add_quarter(study, spacing)
     draw(study, runs)
 
 
@@ -53,6 +62,28 @@ def add_rows(study: Study, spacing: int, one: Run, *, judge: bool) -> None:
     # what the fields hold against the light that the solver booked; nothing else is exchanged
     held, taken = (np.asarray(one.history[f"energy_{name}_J"]) for name in ("stored", "absorbed"))
     study.add("heat", float(np.max(np.abs(held - taken)) / taken[-1]), judge=judge, spacing=spacing)
+
+
+def add_quarter(study: Study, spacing: int) -> None:
+    """Rows of a quarter of the block in 3-D: below a flat surface beside the finite volumes, and
+    where the surface moves beside the section."""
+    fine = f"particles.spacing={spacing} nm"
+    flat = study.run(f"quarter-{spacing}nm", *study.plan.settings, *study.plan.quarter, fine)
+    values = {
+        name: factor * float(np.max(flat.history[column]))
+        for name, (column, _, factor) in COLUMNS.items()
+    }
+    # what a probe shows at the surface, not the center of the uppermost particle
+    values["temperature"] = flat.summary["probes"]["center"]["temperature_max_K"]
+    for name, value in values.items():
+        study.add(f"quarter_{name}", value, LARGEST[name], spacing=spacing)
+
+    # relief and melt of the case as it is
+    moving = study.run(f"relief-{spacing}nm", *study.plan.quarter, fine).summary
+    section = study.run(f"relief-{spacing}nm-section", fine).summary
+    for name, (room, key, factor) in RELIEF.items():
+        expected = factor * section[room][key]
+        study.add("relief", factor * moving[room][key], expected, name=name, spacing=spacing)
 
 
 def speed_of(one: Run) -> float:

@@ -177,6 +177,40 @@ def test_solid_drags():
     assert np.all((found[0, fluid] > 0.0) & (found[0, fluid] < 1.0))
 
 
+def end_of_profile(solver):
+    """Height over the end of the melt, in spacings, where the straight profile of a sheared layer
+    ends: the upper row moves with 1 m/s, all below follows from viscosity."""
+    solver.fluid_count = solver.kinds.find_fluid(solver.particles["melt_fraction"])
+    solver.advect(0.0)
+    backend, block, kinds = solver.backend, solver.flow.block, solver.kinds
+    z = place_of(solver)[1]
+    rows = np.unique(np.round(z[backend.to_host(kinds.fluid) > 0.0], 10))
+    top = np.isclose(z, rows[-1])
+    v = np.zeros((2, z.size))
+    viscous = ViscousStep(backend, solver.flow.viscous.volume, 1e-6, "implicit", PLANE, 2)
+    for _ in range(30):
+        v[0] = np.where(top, 1.0, v[0])
+        velocity, force = backend.asarray(v), backend.zeros((2, z.size))
+        extended = block.ghosts.extend_velocity(velocity, backend.zeros(z.size))
+        viscous.advance(block, velocity, force, extended, kinds, 1e-6)
+        v = np.array(backend.to_host(velocity))
+    # a line through the rows in the middle of the layer
+    inner = rows[3:-4]
+    u = [v[0][np.isclose(z, row)].mean() for row in inner]
+    slope, offset = np.polyfit(inner, u, 1)
+    spacing = rows[1] - rows[0]
+    return (-offset / slope - (rows[0] - 0.5 * spacing)) / spacing
+
+
+def test_melt_ends_halfway_to_the_solid():
+    """What rests is rigid: a sheared layer is at rest where it ends, within a tenth of a spacing;
+    as viscous as melt, as published, 0.6 spacings behind."""
+    layer = (lambda x, z: z > -1.5e-6, "particles.fine_depth=2.5um", "domain.extent=full",
+             "boundaries.sides=periodic")  # fmt: skip
+    assert abs(end_of_profile(pool(*layer))) < 0.1
+    assert end_of_profile(pool(*layer, "solver.viscosity=explicit")) == pytest.approx(-0.6, abs=0.1)
+
+
 def test_nothing_flows():
     """No rows, no iterations."""
     solver = box()

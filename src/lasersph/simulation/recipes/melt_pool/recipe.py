@@ -32,11 +32,12 @@ FLOW_COST = {
     "flat": StepCost(25.0),
     "moving": StepCost(18.0, 20e-3),
     "moving in space": StepCost(24.6, 46e-3),
-    "box": StepCost(70.0),
+    "box": StepCost(25.0, 6e-3),
 }
 """Cost of a step in which something flows, a part of the block or all of a box. Forecast: as
 measured with two threads; below a surface that moves `texture-steel` at 8 and 5 nm, `spot-steel`,
-and `texture-dots-steel` at 64 and 48 nm, over the expected number of steps."""
+and `texture-dots-steel` at 64 and 48 nm, over the expected number of steps; boxes as shipped, and
+cubes of 24 to 48 a side."""
 
 
 class MeltPoolRecipe(HeatRecipe[MeltPoolSettings, MeltPool]):
