@@ -23,13 +23,15 @@ given temperature and coarse columns beside the fine ones have no b.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import csr_matrix
-from scipy.sparse.csgraph import connected_components
 
 from lasersph.sph.rings import REACH, STEPS
+
+if TYPE_CHECKING:
+    from scipy.sparse import csr_matrix
 
 Array = NDArray[np.float64]
 Numbers = NDArray[np.int64]
@@ -74,6 +76,9 @@ def ring_additions(pairs: RingPairs, wanted: Array) -> Array:
     Args:
         wanted: (rings, STEPS) sums of the rows toward each layer, 0 where they stay as they are.
     """
+    from scipy.sparse import csr_matrix  # only sections (r, z) need them
+    from scipy.sparse.csgraph import connected_components
+
     # pairs within reach toward layers for which a sum is wanted, and D of each
     sums = wanted.ravel()
     near = np.flatnonzero((np.abs(pairs.steps) <= REACH) & (pairs.weight > 0.0))
