@@ -27,7 +27,7 @@ def spots(folder):
 
 
 def test_a_quarter_of_a_spot_is_its_section(tmp_path):
-    """Volume and depth of the melt within 3 %: 2.3 and 0.4 % came out. Relief is made on both."""
+    """Volume and depth of the melt within 3 %: 2.3 and 0.3 % came out. Relief is made on both."""
     section, quarter = spots(tmp_path)
     found = {
         key: quarter[part][key] / section[part][key] - 1.0
