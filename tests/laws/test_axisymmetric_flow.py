@@ -84,7 +84,8 @@ def test_slow_flow_has_its_closed_form():
 
 def test_heat_and_axis_of_a_pool():
     """Heat of the whole revolution stays to rounding; on the axis the melt rises, and beside it u
-    grows as r."""
+    of the uppermost row grows as r; the first ring is 7 % too fast there, by as much in rows that
+    are slower."""
     _, solver = spot_pool(half_ball, spacing=5e-8, width=1.6e-6)
     start = float(np.sum(host(solver, "mass") * host(solver, "enthalpy")))
     go(solver, 4e-9)
