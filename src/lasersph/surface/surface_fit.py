@@ -31,8 +31,8 @@ LEAST_SHARE = 0.05
 first row, 0.5 spacings deep, has the weight 0.67, the second at 1.5 would have none and a gap in
 the first no value; with 0.05 it has 7 %."""
 LEAST_DEPTH = 0.2
-"""Least variance of the squares of depths, of all, with which a parabola is fitted. Guard: two rows
-have a half, one whose particles lie a tenth of a spacing off 0.13."""
+"""Least share of what the depth adds to a fit, of all, with which it is fitted. Guard: the squares
+of depths of two rows have a half, of one whose particles lie a tenth of a spacing off 0.13."""
 WINDOW = 2.5
 """Columns at either side from which a column takes values of particles. Accuracy: five columns hold
 at least ten particles, and smoothing over 0.3 um comes after."""
@@ -46,6 +46,43 @@ def fall_off(r):
 def share_of(layers, reach, near):
     """Weight in a fit by the depth, in spacings, of those that count, and along the surface."""
     return max(1.0 - layers / reach, LEAST_SHARE) * near * near
+
+
+def line_weights(m_0, m_1, m_2, m_d, m_1d, m_dd):
+    """Weights of the moments 1, r and d of a field in its value at r = d = 0, and their divisor,
+    by a fit to 1, r and d, whose moments with each other are given."""
+    # cofactors of 1, r, d
+    c_0 = m_2 * m_dd - m_1d * m_1d
+    c_1 = m_1d * m_d - m_1 * m_dd
+    c_d = m_1 * m_1d - m_2 * m_d
+    det = m_0 * c_0 + m_1 * c_1 + m_d * c_d
+    # without the depth where all are as deep, and the mean where all are on one spot
+    if det <= LEAST_DEPTH * m_0 * m_2 * m_dd:
+        c_0, c_1, c_d, det = m_2, -m_1, 0.0, m_0 * m_2 - m_1 * m_1
+    if det <= 1.0e-9 * m_0 * c_0:
+        c_0, c_1, c_d, det = 1.0, 0.0, 0.0, max(m_0, 1.0e-300)
+    return c_0, c_1, c_d, det
+
+
+def grid_weights(M, m_d, m_dd):
+    """Weights of the moments b = (1, r_x, r_y) and d, as `line_weights` has them, divided.
+
+    Args:
+        M: moments of b with b, 3 x 3. m_d: of b with d. m_dd: of d with d.
+    """
+    # the depth is eliminated first
+    first, above = vector(1.0, 0.0, 0.0), max(m_dd, 1.0e-300)
+    R, share = M - outer(m_d, m_d) / above, 1.0
+    # without it where all are as deep, and the mean where the particles lie in a line
+    all_of = M[0, 0] * M[1, 1] * M[2, 2]
+    if determinant(R) <= LEAST_DEPTH * all_of:
+        R, share = 1.0 * M, 0.0
+    w = first / max(M[0, 0], 1.0e-300)
+    if determinant(R) > 1.0e-9 * all_of:
+        w = matvec(inverse(R), first)
+    else:
+        share = 0.0
+    return w, -share * dot(m_d, w) / above
 
 
 def surface_velocity_of_line(
@@ -105,26 +142,11 @@ def surface_velocity_of_line(
                         T_1 += share * r * T[j]
                         T_d += share * d * T[j]
 
-    # temperature of the first row, linear along the surface and with the depth; without the depth
-    # where all are as deep, and the mean where all are on one spot
-    c_0 = n_2 * n_dd - n_1d * n_1d
-    c_1 = n_1d * n_d - n_1 * n_dd
-    c_d = n_1 * n_1d - n_2 * n_d
-    det = n_0 * c_0 + n_1 * c_1 + n_d * c_d
-    if det <= LEAST_DEPTH * n_0 * n_2 * n_dd:
-        c_0, c_1, c_d, det = n_2, -n_1, 0.0, n_0 * n_2 - n_1 * n_1
-    if det <= 1.0e-9 * n_0 * c_0:
-        c_0, c_1, c_d, det = 1.0, 0.0, 0.0, max(n_0, 1.0e-300)
+    # temperature of the first row, linear along the surface and with the depth
+    c_0, c_1, c_d, det = line_weights(n_0, n_1, n_2, n_d, n_1d, n_dd)
     T_s = (c_0 * T_0 + c_1 * T_1 + c_d * T_d) / det
-    # cofactors of 1, r, d; without the parabola where all are as deep, a mean where all are in line
-    c_0 = s_2 * s_dd - s_1d * s_1d
-    c_1 = s_1d * s_d - s_1 * s_dd
-    c_d = s_1 * s_1d - s_2 * s_d
-    det = s_0 * c_0 + s_1 * c_1 + s_d * c_d
-    if det <= LEAST_DEPTH * s_0 * s_2 * s_dd:
-        c_0, c_1, c_d, det = s_2, -s_1, 0.0, s_0 * s_2 - s_1 * s_1
-    if det <= 1.0e-9 * s_0 * c_0:
-        c_0, c_1, c_d, det = 1.0, 0.0, 0.0, max(s_0, 1.0e-300)
+    # velocity of the surface, with a parabola of the depth
+    c_0, c_1, c_d, det = line_weights(s_0, s_1, s_2, s_d, s_1d, s_dd)
     v_s = c_0 * v_0 + c_1 * v_1 + c_d * v_d
     return (
         vector(v_s[0] / det, v_s[1] / det),
@@ -180,26 +202,9 @@ def surface_velocity_of_grid(
                         T_b += share * T[j] * b
                         T_d += share * d * T[j]
 
-    # temperature of the first row, linear along the surface and with the depth, which is eliminated
-    # first; without it where all are as deep, and the mean where the particles lie in a line
-    first = vector(1.0, 0.0, 0.0)
-    R = N - outer(N_d, N_d) / max(n_dd, 1.0e-300)
-    T_r = T_b - N_d * (T_d / max(n_dd, 1.0e-300))
-    all_of = N[0, 0] * N[1, 1] * N[2, 2]
-    if determinant(R) <= LEAST_DEPTH * all_of:
-        R, T_r = 1.0 * N, 1.0 * T_b
-    T_s = T_b[0] / max(N[0, 0], 1.0e-300)
-    if determinant(R) > 1.0e-9 * all_of:
-        T_s = dot(matvec(inverse(R), first), T_r)
-
-    # of the velocity with a parabola of the depth, whose part is eliminated first; without it where
-    # all are as deep, and a mean where they lie in a line
-    R = M - outer(b_d, b_d) / max(s_dd, 1.0e-300)
-    v_r = v_b - outer(b_d, v_d) / max(s_dd, 1.0e-300)
-    all_of = M[0, 0] * M[1, 1] * M[2, 2]
-    if determinant(R) <= LEAST_DEPTH * all_of:
-        R, v_r = 1.0 * M, 1.0 * v_b
-    v_s = matvec(transpose(v_b), first) / max(M[0, 0], 1.0e-300)
-    if determinant(R) > 1.0e-9 * all_of:
-        v_s = matvec(transpose(v_r), matvec(inverse(R), first))
-    return v_s, T_s, N[0, 0]
+    # temperature of the first row, linear along the surface and with the depth
+    w, w_d = grid_weights(N, N_d, n_dd)
+    T_s = dot(w, T_b) + w_d * T_d
+    # velocity of the surface, with a parabola of the depth
+    w, w_d = grid_weights(M, b_d, s_dd)
+    return matvec(transpose(v_b), w) + w_d * v_d, T_s, N[0, 0]

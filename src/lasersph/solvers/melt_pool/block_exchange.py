@@ -170,7 +170,7 @@ class BlockExchange(FaceExchange):
         """Add the momentum of a viscous step that has just been taken."""
         if self.potential is None:
             return
-        found = self.sum_viscous_forces(block, flow, flow.viscous_step(step))
+        found = self.sum_viscous_forces(block, flow)
         factor = step * flow.liquid.density * flow.liquid.viscosity
         # three components a face: two are drag, that along its normal presses
         components = iter(found)
@@ -183,9 +183,9 @@ class BlockExchange(FaceExchange):
                     self.pressing[face] -= outward_sign(face) * force
 
     @graph
-    def sum_viscous_forces(self, block: Block, flow: Flow, step: float) -> None:
+    def sum_viscous_forces(self, block: Block, flow: Flow) -> None:
         """Reduce the components of the viscous force over eta on each face [m^2/s]."""
-        v = flow.extend_velocity(flow.viscous.velocity, step)
+        v = flow.extend_velocity(flow.viscous.velocity)
         fields = {"v": v, "g_ij": block.viscous_weights, **self._types(block)}
         self.backend.pair_sum(
             viscous_force,

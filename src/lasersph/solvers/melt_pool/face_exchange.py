@@ -154,16 +154,16 @@ class FaceExchange:
         if self.potential is None:
             return
         # dt rho nu times the sums, along each face and across it
-        found = self.sum_viscous_forces(block, flow, flow.viscous_step(step))
+        found = self.sum_viscous_forces(block, flow)
         factor = step * flow.liquid.density * flow.liquid.viscosity
         add_to(self.impulse, found[: len(PLANE)], factor)
         if self.books_pressing:
             add_to(self.pressing, outward(found[len(PLANE) :]), -factor)
 
     @graph
-    def sum_viscous_forces(self, block: Block, flow: Flow, step: float) -> None:
+    def sum_viscous_forces(self, block: Block, flow: Flow) -> None:
         """Reduce the viscous force over eta, along and across each face [m^2/s]."""
-        v, weights = flow.extend_velocity(flow.viscous.velocity, step), block.viscous_weights
+        v, weights = flow.extend_velocity(flow.viscous.velocity), block.viscous_weights
         fields = {"v": v, "g_ij": weights}
         self.backend.pair_sum(
             viscous_terms,

@@ -42,6 +42,16 @@ def divergence_load(total_0, total_1, V, fraction, lattice_sum, rate):
     return fraction * V * (total_0 - density_drift_source(total_1, lattice_sum, rate))
 
 
+def add_force(b, a):
+    """b + a [m/s^2]."""
+    return b + a
+
+
+def take_back(v, a, step):
+    """v - a dt [m/s]."""
+    return v - step * a
+
+
 def edge_pressure_terms(p_j, unknown_j, W_ij):
     """Terms of the mean pressure of the edge."""
     return unknown_j * p_j * W_ij, unknown_j * W_ij
@@ -55,10 +65,10 @@ def dummy_pressure(total_0, total_1, p, dummy):
 
 
 def correct(total, v, v_old, step, density):
-    """v - dt / rho G{p} [m/s] (70), and |dv/dt|^2 of all forces of the step."""
+    """v - dt/rho G{p} [m/s] (70), -G{p}/rho [m/s^2], and |dv/dt|^2 of all forces of the step."""
     new = v - step / density * total
     a = (new - v_old) / step
-    return new, dot(a, a)
+    return new, -1.0 / density * total, dot(a, a)
 
 
 def kinetic_energy(v, V, density):

@@ -126,17 +126,16 @@ class GhostExtension:
             ghost_fields.ghost_velocity, {"v": v, "jump": jump, **self._mirrored_velocity}
         )
 
-    def add_at_walls(self, v: Array, a: Array, relative: Array, step: float, nu: float) -> None:
-        """Add to velocities (d, M) what `ghost_fields.velocity_at_wall` says.
+    def bend_at_walls(self, v: Array, b: Array, relative: Array, nu: float) -> None:
+        """Bend velocities (d, M) beyond walls as `ghost_fields.velocity_at_wall` does.
 
         Args:
-            a: (d, n) grad p/rho [m/s^2]. relative: (n,) viscosity over that at the liquidus.
-                step: [s]. nu: at the liquidus [m^2/s].
+            b: (d, n) force [m/s^2]. relative: (n,) viscosity over that at the liquidus.
+            nu: at the liquidus [m^2/s].
         """
         fields = {**self.sources, "v": v}
-        tables: Constants = {"m": relative, "a": a, **self._still_walls}
-        function = ghost_fields.velocity_at_wall
-        self.backend.pointwise(function, fields, v, **tables, step=step, nu=nu)
+        tables: Constants = {"m": relative, "b": b, **self._still_walls}
+        self.backend.pointwise(ghost_fields.velocity_at_wall, fields, v, **tables, nu=nu)
 
     def extend_velocity_change(self, d: Array, out: Array) -> None:
         """Extend a change (d, n) of velocities, where walls and stress stay the same, into `out`

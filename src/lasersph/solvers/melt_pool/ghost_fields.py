@@ -60,18 +60,17 @@ def ghost_pressure(source, ghost_type, p, p_b, crosses_surface):
     return p[source] + 2.0 * crosses_surface[ghost_type] * (p_b[source] - p[source])
 
 
-def velocity_at_wall(source, ghost_type, place, v, m, a, along, normal, plane, step, nu):
-    """Velocity of a ghost [m/s], with what the pressure does along a wall (`wall_pressure`).
+def velocity_at_wall(source, ghost_type, place, v, m, b, along, normal, plane, nu):
+    """Velocity of a ghost beyond a wall [m/s], bent by the force there: v - d^2/nu b (`flow`).
 
     Args:
         place: of the ghost [m]. m: relative viscosity of the source [1], nu: what that counts
-            from [m^2/s]. a: grad p/rho [m/s^2]. along: 1 for the components along a wall, -1 for
-            those that a plane of symmetry beside it turns around. normal,
-            plane: of that, and its place along the normal [m]. step: [s].
+            from [m^2/s]. b: [m/s^2]. along: 1 for the components along a wall, -1 for those that a
+            plane of symmetry beside it turns around. normal, plane: of that, and its place along
+            the normal [m].
     """
     d = dot(place, normal[ghost_type]) - plane[ghost_type]
-    viscosity = nu * m[source]
-    return v + along[ghost_type] * (2.0 * step + d * d / viscosity) * a[source]
+    return v - along[ghost_type] * (d * d / (nu * m[source])) * b[source]
 
 
 def ghost_layers(

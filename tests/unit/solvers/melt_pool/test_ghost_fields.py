@@ -107,11 +107,11 @@ def test_velocity_in_the_edge_of_two_planes():
 
 
 def test_velocity_at_wall():
-    """(2 dt + d^2/nu) a along a wall 1 before the ghost: (2 * 0.5 + 1 / (4 * 0.5)) 6 = 9."""
+    """- d^2/nu b along a wall 1 before the ghost: - 1 / (4 * 0.5) 6 = -3."""
     wall = {"along": entries((1, 0)), "normal": entries((0, 1)), "plane": [0.0, -2.0]}
-    given = {"m": [0.0, 0.5], "a": entries((6, 7)), "step": 0.5, "nu": 4.0}
+    given = {"m": [0.0, 0.5], "b": entries((6, 7)), "nu": 4.0}
     v, x = np.array([1.0, 2.0]), np.array([5.0, -3.0])
-    assert velocity_at_wall(1, 1, x, v, **given, **wall).tolist() == [10.0, 2.0]
+    assert velocity_at_wall(1, 1, x, v, **given, **wall).tolist() == [-2.0, 2.0]
 
 
 def slanted(dimension):

@@ -140,7 +140,7 @@ def test_turning_melt_feels_no_viscosity():
     flow._viscosity_varies = True
     extended = block.ghosts.extend_velocity(backend.asarray(v), backend.zeros(solver.body.count))
     flow._add_transposed_stress(extended, solver.kinds)
-    rest = pairs + 1e-4 * backend.to_host(flow.body_force)
+    rest = pairs + 1e-4 * backend.to_host(flow.force)
     assert np.abs(pairs[:, inner]).max() > 0.3e-4 * NU
     assert np.abs(rest[:, inner]).max() < 0.02 * np.abs(pairs[:, inner]).max()
 
