@@ -134,7 +134,10 @@ def with_flow(case: Case, settings: MeltPoolSettings, layers: Layers, heat: Cond
     )
     bodies = backend.zeros(count) if is_section else body.particles["volume"]
     terms = RINGS if is_section else PLANE
-    flow = Flow(body.particles, liquid, surface, settings, layers.spacing, bodies, terms)
+    flow = Flow(
+        *(body.particles, liquid, surface, settings, layers.spacing, bodies, terms),
+        is_box=case.flow is not None,
+    )
 
     # A box starts with the velocity of its case; a block is laid out below its first surface.
     if case.flow is not None:
