@@ -1,13 +1,15 @@
-"""Whether the cost of a particle stays the same as particles become more: loops, and steps of heat.
+"""Whether the cost of a particle stays the same as particles become more: loops, steps of heat, and
+steps of a flow in 3-D.
 
 All sizes lie beyond the last-level cache. Times are those of the processors, so that other programs
 on the machine matter less. Ten million particles are measured on demand: GROWTH_PARTICLES is the
-larger size of the loops, GROWTH_SPACING that of the steps. Run: pytest benchmarks/test_growth.py -s
+larger size of the loops, GROWTH_SPACING that of the steps. A million that flow take 11 GiB.
+Run: pytest benchmarks/test_growth.py -s
 """
 
 import os
 from resource import RUSAGE_SELF, getrusage
-from time import process_time
+from time import perf_counter, process_time
 
 import pytest
 from hot_loops.counting import CountingBackend
@@ -24,6 +26,8 @@ THREADS = 2
 SIZES = (400_000, int(os.environ.get("GROWTH_PARTICLES", "2000000")))
 SPACINGS = ("0.2 um", os.environ.get("GROWTH_SPACING", "0.1 um"))
 """Of a body of 100 um by 100 um: 250 000 and a million particles."""
+SIDES = (27, 100)
+"""Particles along the edges of cubes below a lid: 19 683 and a million that flow."""
 ROUNDS = 3
 WARM, STEPS = 1, 3
 FLAT = 1.5
@@ -86,4 +90,37 @@ def cost(scheme, spacing):
 def test_step_of_heat(scheme):
     """Four times the particles in the same body."""
     first, last = (cost(scheme, spacing) for spacing in SPACINGS)
+    assert last <= FLAT * first
+
+
+def cost_of_flow(side):
+    """Processor time per particle and step [s] of a cube below a lid, with all of its pressure and
+    viscosity."""
+    case = load_case("lid-driven-cube", [f"particles.spacing={1.0 / side!r} m"])
+    solver = recipe_of(case).build(compute.cpu(threads=THREADS))
+    count, begin, wall = solver.body.count, 0.0, 0.0
+    # few particles take more steps, so that both are timed for seconds
+    steps = max(STEPS, SIDES[-1] ** 3 // count)
+    for k in range(WARM + steps):
+        if k == WARM:
+            begin, wall = process_time(), perf_counter()
+        _, step, unclipped_step = choose_step(solver.time_step_limits())
+        solver.step(step, unclipped_step)
+    each, waited = (
+        (now - then) / (steps * count)
+        for now, then in ((process_time(), begin), (perf_counter(), wall))
+    )
+    found = ", ".join(f"{number} of {name}" for name, number in solver.flow.iterations.items())
+    print(
+        f"\nflow, {count} particles: {1e6 * each:.1f} us of processor time a particle and step,"
+        f" {1e6 * waited:.1f} us waited with {THREADS} threads; iterations: {found};"
+        f" {forecast(case).memory / count:.0f} B a particle expected, the process took"
+        f" {1024 * getrusage(RUSAGE_SELF).ru_maxrss / 2**30:.2f} GiB at most"
+    )
+    return each
+
+
+def test_step_of_flow():
+    """From twenty thousand to a million particles."""
+    first, last = (cost_of_flow(side) for side in SIDES)
     assert last <= FLAT * first

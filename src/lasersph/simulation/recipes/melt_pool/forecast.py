@@ -309,7 +309,7 @@ def _thin_layers(layers: dict[str, float], spacing: float) -> tuple[str, ...]:
 
 def _warnings(layer: float | None, spacing: float) -> list[str]:
     """Say what few rows spoil in a layer: steel, 101 nm thick, has with 7.8, 3.2, 1.7 and 1
-    spacings in it a surface 1, 4, 11 and 3 % off that of 12.6 and particles 6, 31, 57 and 79 % too
+    spacings in it a surface 0, 4, 11 and 4 % off that of 12.6 and particles 7, 31, 57 and 79 % too
     slow (`lasersph run dlip-steel --anyway` with particles.spacing of 13, 32, 60 and 100 nm)."""
     if layer is None or layer >= MIN_LAYERS * spacing:
         return []
