@@ -92,6 +92,14 @@ FLOW = _table(
     Field("speed", "speed", "m/s", "size of the velocity"),
     Field("pressure", "p", "Pa", "pressure", is_kept=True),
     Field(
+        "pressure_force",
+        "a_p",
+        "m/s^2",
+        "acceleration by the pressure of the last step",
+        "vector",
+        is_kept=True,
+    ),
+    Field(
         "settled_jump",
         "settled",
         "m/s",

@@ -67,18 +67,19 @@ class Flow:
         is_box: bool,
     ) -> None:
         backend, count = particles.backend, particles.count
-        particles.add("velocity", "pressure", "settled_jump")
+        particles.add("velocity", "pressure", "pressure_force", "settled_jump")
         self.spacing, self.particles, self.volume = spacing, particles, volume
         self.geometry_terms = geometry_terms
         self.backend, self.settings = backend, settings
         self.liquid, self.surface = liquid, surface
 
-        # v and p of all particles, v^n beside them, and what accelerates the melt but for
-        # viscosity, without and with the transposed stress; -grad p/rho in it
+        # v, p and -grad p/rho of all particles, v^n beside them, and what accelerates the melt but
+        # for viscosity, without and with the transposed stress
         self.velocity, self.pressure = particles["velocity"], particles["pressure"]
+        self.pressure_force = particles["pressure_force"]
         vectors = self.velocity.shape
         self.before, self.body_force = backend.zeros(vectors), backend.zeros(vectors)
-        self.force, self.pressure_force = backend.zeros(vectors), backend.zeros(vectors)
+        self.force = backend.zeros(vectors)
         self.largest_speed = self.largest_acceleration = 0.0
         self.iterations = {"pressure": 0, "viscosity": 0}
         self.divergence = (0.0, 0.0)
@@ -196,8 +197,8 @@ class Flow:
         self.surface.time_rule.finish(self.backend, self.velocity, self.before)
         # without the pressure of the step before, which (69) finds anew
         if self._has_pressure_force:
-            fields, rows = {"v": self.velocity, "a": self.pressure_force}, kinds.fluid_rows
-            self.backend.pointwise(terms.take_back, fields, self.velocity, rows=rows, step=step)
+            fields = {"v": self.velocity, "a": self.pressure_force}
+            self.backend.pointwise(terms.take_back, fields, self.velocity, step=step)
         self.stop_solid(kinds)
 
     @graph
@@ -218,19 +219,11 @@ class Flow:
             up=upward(self.velocity.shape[0]),
         )
 
-        # the pressure of the step before, by differences, which particles that part do not disturb
+        # the force of the pressure of the step before, on what has flowed since
         if self._has_pressure_force:
-            block = self.block
-            p, b = block.ghosts.extend_pressure(self.pressure), self.body_force
-            backend.pair_sum(
-                terms.difference_term,
-                block.pairs,
-                {"p": p, "G_ij": block.gradient, "C": block.correction, "b": b},
-                (b, self.pressure_force),
-                finish=terms.add_pressure_force,
-                rows=kinds.fluid_rows,
-                density=liquid.density,
-            )
+            kinds.stop_solid(self.pressure_force)
+            fields = {"b": self.body_force, "a": self.pressure_force}
+            backend.pointwise(terms.add_force, fields, self.body_force)
 
         # ghosts with the stress of the surface, and what a varying viscosity adds
         self._extended = self.extend_velocity(self.velocity)
@@ -283,6 +276,7 @@ class Flow:
         if self.largest_speed > 0.0:
             self.backend.fill(self.velocity, 0.0)
             self.backend.fill(self.pressure, 0.0)
+            self.backend.fill(self.pressure_force, 0.0)
             self.backend.fill(self.particles["settled_jump"], 0.0)
         self.largest_speed = self.largest_acceleration = 0.0
         self.divergence = (0.0, 0.0)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
-from lasersph.compute.vectors import dot, matvec
+from lasersph.compute.vectors import dot
 from lasersph.physics.viscosity import momentum
 from lasersph.solvers.melt_pool.block_terms import weight_of
 from lasersph.sph.correction import corrected_divergence_term
@@ -42,15 +42,9 @@ def divergence_load(total_0, total_1, V, fraction, lattice_sum, rate):
     return fraction * V * (total_0 - density_drift_source(total_1, lattice_sum, rate))
 
 
-def difference_term(p_i, p_j, G_ij):
-    """Term of the gradient of a pressure by its differences, uncorrected [Pa/m]."""
-    return (p_j - p_i) * G_ij
-
-
-def add_pressure_force(total, C, b, density):
-    """b - grad p/rho, and -grad p/rho alone [m/s^2]; C corrects the gradient."""
-    a = -1.0 / density * matvec(C, total)
-    return b + a, a
+def add_force(b, a):
+    """b + a [m/s^2]."""
+    return b + a
 
 
 def take_back(v, a, step):
@@ -71,10 +65,10 @@ def dummy_pressure(total_0, total_1, p, dummy):
 
 
 def correct(total, v, v_old, step, density):
-    """v - dt / rho G{p} [m/s] (70), and |dv/dt|^2 of all forces of the step."""
+    """v - dt/rho G{p} [m/s] (70), -G{p}/rho [m/s^2], and |dv/dt|^2 of all forces of the step."""
     new = v - step / density * total
     a = (new - v_old) / step
-    return new, dot(a, a)
+    return new, -1.0 / density * total, dot(a, a)
 
 
 def kinetic_energy(v, V, density):

@@ -64,7 +64,7 @@ class Projection:
         self.spacing, self.tolerance = spacing, settings.pressure_tolerance
         self.volume = backend.head(volume, count)
         self.velocity, self.pressure = particles["velocity"], particles["pressure"]
-        self._settled_jump = particles["settled_jump"]
+        self._settled_jump, self._force = particles["settled_jump"], particles["pressure_force"]
 
         # right-hand side and pressure of (69); kernel sum of a perfect lattice, from which density
         # drift is counted
@@ -236,10 +236,10 @@ class Projection:
             gradient.term,
             block.pairs,
             self.gradient_fields | {"v": self.velocity, "v_old": v_old},
-            (self.velocity, None),
+            (self.velocity, self._force, None),
             rows=kinds.fluid_rows,
             finish=terms.correct,
-            reduce=(None, "max"),
+            reduce=(None, None, "max"),
             step=step,
             density=self.liquid.density,
         )
