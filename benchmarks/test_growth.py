@@ -3,7 +3,7 @@ steps of a flow in 3-D.
 
 All sizes lie beyond the last-level cache. Times are those of the processors, so that other programs
 on the machine matter less. Ten million particles are measured on demand: GROWTH_PARTICLES is the
-larger size of the loops, GROWTH_SPACING that of the steps. A million that flow take 11 GiB.
+larger size of the loops, GROWTH_SPACING that of the steps. A million that flow take 9.2 GiB.
 Run: pytest benchmarks/test_growth.py -s
 """
 

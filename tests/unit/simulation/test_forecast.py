@@ -9,7 +9,9 @@ from receding_metals import recession_of
 from lasersph import compute
 from lasersph.case import Case, available_cases, load_case
 from lasersph.compute import search
+from lasersph.input import format_duration
 from lasersph.simulation import forecast
+from lasersph.simulation.case_forecast import SECONDS_PER_LOOP
 from lasersph.simulation.known_loops import known_loops
 from lasersph.simulation.layers import lay_out
 from lasersph.simulation.recipes import recipe_of
@@ -85,8 +87,11 @@ def test_coarse_spacing_is_warned_of() -> None:
 def test_what_a_first_run_pays_besides() -> None:
     """The loops that a run of the kind is known to call, and how long they take to compile."""
     case = load_case("dlip-steel")
-    words = f"compiles up to {known_loops(case)} loops, once: roughly 1"  # and a second digit
-    assert known_loops(case) > 100 and words in str(forecast(case))
+    loops = known_loops(case)
+    longer = format_duration(SECONDS_PER_LOOP * loops)
+    words = f"compiles up to {loops} loops, once: roughly {longer} more"
+    assert loops > 100 and words in str(forecast(case))
+    assert longer in ("10 s", "11 s")  # a second more with every 16 loops
 
 
 def test_explicit_runs_are_bound_by_conduction() -> None:

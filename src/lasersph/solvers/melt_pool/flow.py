@@ -5,7 +5,7 @@ of the algorithm; `solver` puts them in order. Deviations from the paper: gradie
 those that the surface brings, and so is the time at which viscosity acts; see also `projection`.
 
 In pools, and below a surface that moves, the pressure of the step before acts with viscosity, and
-is taken back before the projection, which finds all of it again [Guermond2006, section 3]. Without
+is taken back before the projection, which finds all of it again [Guermond2006]. Without
 it melt slips along solid and walls by dt grad p/rho, as the projection moves it after viscosity. So
 
     nu d2u/dn2 = -b on a wall, where nothing accelerates under the force b, grad p/rho in it,
