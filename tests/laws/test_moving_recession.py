@@ -12,19 +12,26 @@ FLUX, SHARE, ROWS = 1e11, 0.01, 4
 """Light [W/m^2], part of the conductivity of steel, rows of particles in D/v."""
 EXACT = recession_of("steel-304-demuth", FLUX, conductivity_share=SHARE)
 SPACING = EXACT.thermal_length / ROWS
-POOL = (
-    *("solver.kind=melt-pool", "solver.vaporization=flux", "boundaries.ambient_pressure=0 Pa"),
-    *("laser.fluence=", "laser.fluence_kind=", f"laser.intensity={FLUX} W/m^2"),
-    *('laser.beam={ kind = "uniform" }', 'laser.pulse={ kind = "square", duration = "1 ms" }'),
-    *('laser.absorption={ kind = "surface" }', "laser.reflectivity=0"),
-    *("particles.arrangement=uniform", "particles.coarsest=", "particles.ratio="),
-    *(f"particles.spacing={SPACING} m", f"domain.width={12 * SPACING} m"),
-    *(f"domain.depth={48 * SPACING} m", "domain.extent=full"),
-    'material={ base = "steel-304-demuth", surface_tension = "1.6 N/m", '
-    'viscosity = "0.7 mPa s", kinematic_viscosity = "1e-7 m^2/s", '
-    f'conductivity = "{SHARE * METALS["steel-304-demuth"][2]} W/(m K)" }}',
-    *(f"time.end={10 * EXACT.time} s", f"time.step={EXACT.time / 20} s"),
-)
+
+
+def settings(flux, share, spacing, depth, step, liquid):
+    """Of a block of steel with 12 columns and a depth in rows, under a flux of light [W/m^2]."""
+    k = share * METALS["steel-304-demuth"][2]
+    return (
+        *("solver.kind=melt-pool", "solver.vaporization=flux", "boundaries.ambient_pressure=0 Pa"),
+        *("laser.fluence=", "laser.fluence_kind=", f"laser.intensity={flux} W/m^2"),
+        *('laser.beam={ kind = "uniform" }', 'laser.pulse={ kind = "square", duration = "1 ms" }'),
+        *('laser.absorption={ kind = "surface" }', "laser.reflectivity=0"),
+        *("particles.arrangement=uniform", "particles.coarsest=", "particles.ratio="),
+        *(f"particles.spacing={spacing} m", f"domain.width={12 * spacing} m"),
+        *(f"domain.depth={depth * spacing} m", "domain.extent=full"),
+        f'material={{ base = "steel-304-demuth", conductivity = "{k} W/(m K)", {liquid} }}',
+        *(f"time.end={200 * step} s", f"time.step={step} s"),
+    )
+
+
+LIQUID = 'surface_tension = "1.6 N/m", viscosity = "0.7 mPa s", kinematic_viscosity = "1e-7 m^2/s"'
+POOL = settings(FLUX, SHARE, SPACING, 48, EXACT.time / 20, LIQUID)
 
 
 def advance(solver, end):
@@ -96,6 +103,24 @@ def test_it_resumes_bit_for_bit(pool):
         assert np.array_equal(
             solver.backend.to_host(values), again.backend.to_host(again.fields[name])
         )
+
+
+def test_melt_below_a_surface_that_recedes_is_quiet():
+    """What melts has no pressure yet. It flows at 4 % of the recession's speed at most while the
+    first 13 nm leave; at 18 times that speed where the force of the pressure of the step before
+    is found anew by differences, which are large between old and new melt."""
+    flux, length = 1e10, 36e-9
+    share = length / recession_of("steel-304-demuth", flux).thermal_length
+    exact = recession_of("steel-304-demuth", flux, conductivity_share=share)
+    liquid = 'surface_tension = "0.01 N/m", kinematic_viscosity = "1e-8 m^2/s"'
+    metal = settings(flux, share, length / 6, 90, exact.time / 40, liquid)
+    _, solver = solver_of("texture-steel", *metal)
+    fastest = 0.0
+    while solver.state.time < 0.6 * exact.time:
+        solver.step(min(solver.time_step_limits().values()))
+        fastest = max(fastest, solver.flow.largest_speed)
+    assert host(solver, "evaporated_mass")[0] > exact.density * 13e-9
+    assert fastest < 0.1 * exact.speed
 
 
 WIDE = EXACT.thermal_length / 3.0
