@@ -6,7 +6,8 @@ import numpy as np
 
 from lasersph import compute
 from lasersph.particles import Domain, Geometry, Lattice
-from lasersph.particles.filling import MIRROR, Filling, fill
+from lasersph.particles.extended_lattice import MIRROR
+from lasersph.particles.filling import Filling, fill
 from lasersph.particles.layers import Layers, stack
 from lasersph.particles.neighbor_lists import find_neighbors
 from lasersph.particles.support import arithmetic, graded

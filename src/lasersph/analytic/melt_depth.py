@@ -118,12 +118,8 @@ def melt_depth(
     if not callable(reflectivity):
         constant = float(reflectivity)
         reflectivity = lambda T, begin, end: np.full_like(T, constant)  # noqa: E731
-    alpha = absorption_coefficient
+    absorbed_share = _share_of_light(faces, absorption_coefficient)
 
-    # share of the light in each cell: what is left at its upper face less that at its lower
-    left = np.where(faces > 0.0, 0.0, 1.0) if np.isinf(alpha) else np.exp(-alpha * faces)
-    left[-1] = 0.0  # the last cell keeps the rest
-    absorbed_share = left[:-1] - left[1:]
     # beyond its last node the curve would stay flat, and Newton's method would not end
     densest = float(np.max(absorbed_share / np.diff(faces))) / density
     most = float(columns.max()) * max(float(delivered(0.0, end_time)), 1.0) * densest
@@ -166,6 +162,14 @@ def melt_depth(
     time, temperatures, depths = (np.array(each) for each in zip(*steps, strict=True))
     history = SurfaceHistory(time, temperatures, depths, column_width)
     return MeltEstimate(deepest, float(start), float(end), hottest, *left, held, history)
+
+
+def _share_of_light(faces: Array, alpha: float) -> Array:
+    """Share of the light that each cell between faces [m] absorbs: what is left at its upper face
+    less that at its lower."""
+    left = np.where(faces > 0.0, 0.0, 1.0) if np.isinf(alpha) else np.exp(-alpha * faces)
+    left[-1] = 0.0  # the last cell keeps the rest
+    return left[:-1] - left[1:]
 
 
 class _Curve:

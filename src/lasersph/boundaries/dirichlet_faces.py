@@ -16,8 +16,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from lasersph.particles.extended_lattice import FACES
 from lasersph.particles.faces import ENDS
-from lasersph.particles.filling import FACES, Filling
+from lasersph.particles.filling import Filling
 
 Array = NDArray[np.float64]
 Extents = tuple[tuple[float, float], ...]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shlex
 import sys
 from math import isfinite
 from pathlib import Path
@@ -13,6 +12,7 @@ import typer
 from lasersph.cli.arguments import Out
 from lasersph.cli.engine_options import EngineOptions, takes_engine
 from lasersph.cli.failures import StoppedBySignal, WrongCommand
+from lasersph.cli.same_command import command_of
 from lasersph.cli.sweeping import (
     DryRun,
     count_words,
@@ -184,8 +184,8 @@ def _stopped(
     error: Exception, code: int, verb: str, plan: Path, folder: Path, engine: EngineOptions
 ) -> StoppedBySignal:
     """Error for what a signal has stopped, which says how to go on."""
-    words = ["lasersph", verb, str(plan), "--out", str(folder), *engine.words()]
-    return StoppedBySignal(f"{error}; continue with: {shlex.join(words)}", code)
+    again = command_of(verb, plan, *engine.words(), out=folder)
+    return StoppedBySignal(f"{error}; continue with: {again}", code)
 
 
 def _first_points(plan: CalibrationPlan) -> tuple[list[Point], int]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shlex
 from collections.abc import Sequence
 from contextlib import nullcontext
 from pathlib import Path
@@ -26,6 +25,7 @@ from lasersph.cli.arguments import (
 from lasersph.cli.drawing import begin_before_end, drawing_processes, say
 from lasersph.cli.engine_options import EngineOptions, Workers
 from lasersph.cli.failures import StoppedBySignal, WrongCommand
+from lasersph.cli.same_command import command_of
 from lasersph.cli.side_by_side import preparation, refuse_workers
 from lasersph.cli.stop_signals import StopSignals
 
@@ -120,15 +120,19 @@ def run(
     # Inputs of --uncertain, the folder, and the command that would go on after a signal.
     inputs = _uncertain_inputs(loaded, uncertain or (), wanted=uncertainty)
     folder = out or RUNS / loaded.name
-    command = ["lasersph", "run", case, "--out", str(folder), "--resume"]
-    command += [word for setting in settings or () for word in ("--set", setting)]
-    command += ["--quick"] if quick else []
-    command += ["--precision", precision] if precision != "float64" else []
-    command += ["--backend", backend] if backend != "cpu" else []
-    command += ["--uncertainty"] if uncertainty else []
-    command += [word for given in uncertain or () for word in ("--uncertain", given)]
-    command += ["--workers", str(workers)] if engine.at_once > 1 else []
-    command += ["--anyway"] if anyway else []
+    again = command_of(
+        *("run", case),
+        out=folder,
+        resume=True,
+        set=settings,
+        quick=quick,
+        precision=precision if precision != "float64" else None,
+        backend=backend if backend != "cpu" else None,
+        uncertainty=uncertainty,
+        uncertain=uncertain,
+        workers=workers if engine.at_once > 1 else None,
+        anyway=anyway,
+    )
 
     # Options of every run of this command.
     options = {"threads": threads, "precision": precision, "backend": backend, "anyway": anyway}
@@ -138,11 +142,11 @@ def run(
     # Companions of --uncertainty lie below the run and always go on where they stopped.
     def make(case: Case, path: Path) -> Result:
         is_own = path == folder
-        again = resume or not is_own  # companions lie in our own folder
         with StopSignals(until_stdin_closes=until_stdin_closes) as signals:
-            given = {**options, "resume": again, "overwrite": overwrite and is_own}
+            # companions lie in our own folder
+            given = {**options, "resume": resume or not is_own, "overwrite": overwrite and is_own}
             drawing = None if uncertainty else others  # no process waits for all companions
-            return _compute(case, path, signals, warnings, shlex.join(command), given, drawing)
+            return _compute(case, path, signals, warnings, again, given, drawing)
 
     # One run, or a run with its companions, whose report several processes draw.
     with drawing_processes(threads) if figures else nullcontext() as others:
@@ -152,7 +156,7 @@ def run(
             from lasersph.studies.uncertainty import runs_of_assessment
 
             say_cost(runs_of_assessment(loaded, inputs), engine, backend, folder)
-            prepare = preparation(engine, shlex.join(command))
+            prepare = preparation(engine, again)
             assess_uncertainty(loaded, folder, inputs=inputs, run=make, prepare=prepare, report=say)
         else:
             make(loaded, folder)

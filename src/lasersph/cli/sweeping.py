@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shlex
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -14,6 +13,7 @@ from lasersph.cli.arguments import Out
 from lasersph.cli.cluster import RunsInHand, Slurm, SlurmDask, write_scripts
 from lasersph.cli.engine_options import EngineOptions, takes_engine
 from lasersph.cli.failures import DONE, FAILED, StoppedBySignal, WrongCommand
+from lasersph.cli.same_command import command_of
 from lasersph.input.text_table import text_table
 
 if TYPE_CHECKING:
@@ -67,10 +67,10 @@ def sweep(
     folder = out or Path("runs") / plan.stem
     if slurm is not None or slurm_dask is not None:
         return write_scripts(loaded, plan, folder, slurm, slurm_dask)
-    words = ["lasersph", "sweep", str(plan), "--out", str(folder), *engine.words()]
+    again = command_of("sweep", plan, *engine.words(), out=folder)
     chosen = engine.engine()
     say_forecast(loaded.points(), engine, folder, loaded.study)
-    return tell(make(loaded, folder, chosen, shlex.join(words)))
+    return tell(make(loaded, folder, chosen, again))
 
 
 def make(plan: SweepPlan, folder: Path, engine: Engine, again: str) -> Table:

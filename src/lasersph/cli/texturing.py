@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shlex
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -12,6 +11,7 @@ import typer
 from lasersph.cli.arguments import CaseName, Out, Settings, read_quantity
 from lasersph.cli.engine_options import EngineOptions, takes_engine
 from lasersph.cli.failures import WrongCommand
+from lasersph.cli.same_command import command_of
 from lasersph.cli.sweeping import DryRun, forecast, make, say_forecast, tell_warnings
 from lasersph.input.text_table import text_table
 
@@ -66,9 +66,8 @@ def texture(
         raise WrongCommand(str(error)) from None
 
     # The command that would go on after a signal.
-    words = ["lasersph", "texture", case, *(w for s in settings or () for w in ("--set", s))]
-    words += ["--cells", str(cells), "--out", str(folder), *engine.words()]
-    again = shlex.join(words + (["--pixel", pixel] if pixel else []))
+    own = engine.words()
+    again = command_of("texture", case, *own, set=settings, cells=cells, out=folder, pixel=pixel)
     chosen = engine.engine()
 
     # Make the cells; a texture needs all of them.

@@ -208,20 +208,9 @@ def build_curve(
 def _built(asked: _Asked) -> CaloricCurve:
     """See `build_curve`."""
     melting, vaporization = asked.melting, asked.vaporization
-    initial_temperature, plateau, name = asked.initial_temperature, asked.plateau, asked.name
+    initial_temperature, plateau = asked.initial_temperature, asked.plateau
     holds = plateau in ("hold", "clip") and vaporization is not None
-    if plateau not in ("hold", "clip", "evaporate"):
-        raise ValueError(f'plateau must be "hold", "clip" or "evaporate", got {plateau!r}')
-    if initial_temperature <= 0.0:
-        raise ValueError(f"the initial temperature must be positive, got {initial_temperature} K")
-    # the curve begins below the first phase change
-    boiling = vaporization.temperature if vaporization and holds else None
-    top = melting.solidus if melting else boiling
-    if top is not None and initial_temperature >= top:
-        raise ValueError(
-            f"the initial temperature {initial_temperature:g} K is not below {top:g} K, "
-            f"where {'melting' if melting else 'boiling'} of {name!r} begins"
-        )
+    _refuse(asked, boiling=vaporization.temperature if vaporization and holds else None)
 
     # pieces of the solid, of the melting range, of the liquid
     c, k = asked.heat_capacity, asked.conductivity
@@ -258,6 +247,22 @@ def _built(asked: _Asked) -> CaloricCurve:
             vaporization.latent_heat if holds and vaporization else 0.0,
         ),
     )
+
+
+def _refuse(asked: _Asked, boiling: float | None) -> None:
+    """Raise ValueError for a plateau that is none, and for a curve that would begin at or above its
+    first phase change, melting or boiling [K]."""
+    start, melting = asked.initial_temperature, asked.melting
+    if asked.plateau not in ("hold", "clip", "evaporate"):
+        raise ValueError(f'plateau must be "hold", "clip" or "evaporate", got {asked.plateau!r}')
+    if start <= 0.0:
+        raise ValueError(f"the initial temperature must be positive, got {start} K")
+    top = melting.solidus if melting else boiling
+    if top is not None and start >= top:
+        raise ValueError(
+            f"the initial temperature {start:g} K is not below {top:g} K, "
+            f"where {'melting' if melting else 'boiling'} of {asked.name!r} begins"
+        )
 
 
 def _end_of_curve(

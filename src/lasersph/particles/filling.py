@@ -1,10 +1,8 @@
 """Filling a domain: a particle in the middle of each cell, and dummy particles beyond the faces.
 
-Dummy layers and columns continue the lattice past each face that is not free. Each dummy knows
-which inner particle it stands for (mirror image or periodic image) or which face gives its
-temperature. Patterns that repeat within one support radius are unfolded as often as needed.
-Beside coarse columns (`coarse_columns`) dummies of fine particles stand for the cells there; these
-have one layer of dummies of their own. `sides` are the faces normal to x and y.
+Fine columns are those of `extended_lattice`. Beside coarse columns (`coarse_columns`) dummies of
+fine particles stand for the cells there; these have one layer of dummies of their own. `sides` are
+the faces normal to x and y.
 """
 
 from __future__ import annotations
@@ -17,29 +15,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lasersph.particles.coarse_columns import NONE, CoarseColumns
-from lasersph.particles.faces import (
-    BACK,
-    BOTTOM,
-    ENDS,
-    FRONT,
-    LATERAL,
-    LEFT,
-    RIGHT,
-    SURFACE,
-    faces_of,
-)
+from lasersph.particles.extended_lattice import DIRICHLET, FACES, FREE, fine_cells
+from lasersph.particles.faces import BACK, BOTTOM, ENDS, FRONT, LEFT, RIGHT, SURFACE, faces_of
 from lasersph.particles.layers import Layers
 
 Array = NDArray[np.float64]
-GHOSTS = 5
-"""Dummy layers, and columns of uniform layers: enough for a support radius of 6 spacings."""
-GRADED_GHOSTS = 12
-"""Dummy columns of graded layers: a coarse particle reaches over many columns of a finer layer."""
-FREE, MIRROR, PERIODIC, DIRICHLET = "free", "mirror", "periodic", "dirichlet"
-JOINED = "joined"
-"""Kind of the end of the fine columns beside which coarse ones lie."""
-FACES = ("none", *faces_of(3))
-"""Faces by the number that dummies have of them."""
 
 
 @dataclass(frozen=True)
@@ -140,7 +120,7 @@ def fill(
     if layers.geometry.is_axisymmetric:
         kinds[LEFT] = FREE
     kinds |= {SURFACE: surface, BOTTOM: bottom}
-    real, dummies = _fine_cells(layers, kinds)
+    real, dummies = fine_cells(layers, kinds)
     count = fine_count = layers.fine_count
     surface_cells = np.arange(int(np.prod(layers.columns[:, 0])))
     above = _above(layers, np.concatenate([one["position"][:-1] for one in real], axis=1))
@@ -182,37 +162,6 @@ def fill(
         fine_surface=fine_surface,
         beside=beside,
     )
-
-
-def _fine_cells(
-    layers: Layers, kinds: dict[str, str]
-) -> tuple[list[dict[str, NDArray[Any]]], list[dict[str, NDArray[Any]]]]:
-    """Particles of the fine columns and their dummies, layer after layer."""
-    # the fine columns end where coarse ones begin
-    kinds = dict(kinds)
-    for ends, beside in zip(LATERAL, layers.beside, strict=False):
-        kinds |= {end: JOINED for end, widths in zip(ends, beside, strict=True) if widths.size}
-    surface, bottom = kinds[SURFACE], kinds[BOTTOM]
-    total = layers.thickness.size
-    starts = np.concatenate([[0], np.cumsum(np.prod(layers.columns, axis=0))])
-    # layers of the extended lattice, from the uppermost dummies down to the lowest
-    first = 0 if surface == FREE else -min(GHOSTS, total)
-    last = total if bottom == FREE else total + min(GHOSTS, total)
-    real, dummies = [], []
-    for number in range(first, last):
-        inside = _inside(number, total, is_periodic=surface == PERIODIC)
-        # face that gives the temperature of these dummies
-        face = 0
-        if number < 0 and surface == DIRICHLET:
-            face = FACES.index(SURFACE)
-        if number >= total and bottom == DIRICHLET:
-            face = FACES.index(BOTTOM)
-        block = _layer(layers, number, inside, int(starts[inside]), face, kinds)
-        # real particles come first, so cells are sorted after
-        is_real = np.logical_and(block["real"], 0 <= number < total)
-        real.append({key: value[..., is_real] for key, value in block.items()})
-        dummies.append({key: value[..., ~is_real] for key, value in block.items()})
-    return real, dummies
 
 
 def _coarse_cells(columns: CoarseColumns) -> tuple[dict[str, NDArray[Any]], NDArray[np.int64]]:
@@ -269,7 +218,7 @@ def _block(
     source: NDArray[np.int64],
     dirichlet: int = 0,
 ) -> dict[str, NDArray[Any]]:
-    """Cells of coarse columns, or their dummies, with what `_layer` gives others."""
+    """Cells of coarse columns, or their dummies, with what `fine_cells` has of others."""
     count = layer.size
     return {
         "position": position,
@@ -281,107 +230,6 @@ def _block(
         "joined": np.zeros(count, bool),
         "place": position,
     }
-
-
-def _inside(number: int, total: int, *, is_periodic: bool) -> int:
-    """The layer of the block that layer `number` of the extended lattice repeats or mirrors."""
-    # the pattern repeats
-    if is_periodic:
-        return number % total
-    # mirrored at the surface, at the bottom
-    if number < 0:
-        return -1 - number
-    return number if number < total else 2 * total - 1 - number
-
-
-def _height(layers: Layers, number: int, inside: int, *, is_periodic: bool) -> float:
-    """z of the middle of a layer of the extended lattice [m]."""
-    depth, total = float(layers.thickness.sum()), layers.thickness.size
-    z = float(layers.center()[inside])
-    if is_periodic:
-        return z - depth * (number // total)
-    if number < 0:
-        return -z
-    return z if number < total else -2.0 * depth - z
-
-
-def _layer(
-    layers: Layers, number: int, inside: int, start: int, face: int, kinds: dict[str, str]
-) -> dict[str, NDArray[Any]]:
-    """One layer of the extended lattice, real and dummy columns; `inside` is its image."""
-    z = _height(layers, number, inside, is_periodic=kinds[SURFACE] == PERIODIC)
-    is_uniform = np.ptp(layers.thickness) <= 1e-9 * layers.thickness[0]
-    beyond = GHOSTS if is_uniform else GRADED_GHOSTS
-    axes, sources, reals, widths, holders, joins, places = [], [], [], [], [], [], []
-    # along each axis: places, widths, real or not, source, and the face that gives the temperature
-    for axis, (lower, _upper) in enumerate(layers.fine_bounds):
-        low, high = LATERAL[axis]
-        columns = int(layers.columns[axis, inside])
-        width = float(layers.column_width()[axis, inside])
-        ghosts = [0 if kinds[end] == FREE else beyond for end in (low, high)]
-        # a mirror sees the body once where nothing lies beyond the other end
-        if (kinds[low], kinds[high]) == (FREE, MIRROR):
-            ghosts[1] = min(beyond, columns)
-        # as far as there are coarse columns
-        for end, kind in enumerate((kinds[low], kinds[high])):
-            if kind == JOINED:
-                ghosts[end] = min(beyond, int(layers.beside[axis][end].sum() / width))
-        index = np.arange(-ghosts[0], columns + ghosts[1])
-        axes.append(lower + (index + 0.5) * width)
-        reals.append((index >= 0) & (index < columns))
-        is_periodic = kinds[low] == PERIODIC
-        sources.append(index % columns if is_periodic else _reflected(index, columns))
-        holder = np.zeros(index.size, int)
-        if kinds[low] == DIRICHLET:
-            holder[index < 0] = FACES.index(low)
-        if kinds[high] == DIRICHLET:
-            holder[index >= columns] = FACES.index(high)
-        holders.append(holder)
-        widths.append(width)
-        # beside coarse columns a dummy stands for what lies where it lies
-        join = (index < 0) & (kinds[low] == JOINED)
-        join |= (index >= columns) & (kinds[high] == JOINED)
-        joins.append(join)
-        places.append(np.where(join, axes[-1], lower + (sources[-1] + 0.5) * width))
-
-    # all combinations of x (and y) in this layer
-    shape = tuple(axis.size for axis in axes)
-    position = np.empty((layers.dimension, int(np.prod(shape))))
-    is_real = np.ones(shape, bool)
-    source = np.zeros(shape, np.int64)
-    dirichlet = np.full(shape, face)
-    joined = np.zeros(shape, bool)
-    place = np.empty(position.shape)
-    for axis, values in enumerate(axes):
-        view = [1] * len(shape)
-        view[axis] = -1
-        position[axis] = np.broadcast_to(values.reshape(view), shape).ravel()
-        place[axis] = np.broadcast_to(places[axis].reshape(view), shape).ravel()
-        is_real &= reals[axis].reshape(view)
-        joined |= joins[axis].reshape(view)
-        # a dummy in a corner belongs to the face of the layer, then to that of x, then of y
-        dirichlet = np.where(dirichlet == 0, holders[axis].reshape(view), dirichlet)
-        source = source * int(layers.columns[axis, inside]) + sources[axis].reshape(view)
-    position[-1], place[-1] = z, layers.center()[inside]
-    width = np.broadcast_to(
-        np.array([*widths, layers.thickness[inside]])[:, None], position.shape
-    ).copy()
-    return {
-        "position": position,
-        "width": width,
-        "real": is_real.ravel(),
-        "layer": np.full(position.shape[1], number),
-        "source": start + source.ravel(),
-        "dirichlet": dirichlet.ravel(),
-        "joined": (joined & (dirichlet == 0)).ravel(),
-        "place": place,
-    }
-
-
-def _reflected(index: NDArray[np.int64], count: int) -> NDArray[np.int64]:
-    """Columns 0 ... count - 1 reflected at both ends as often as needed."""
-    folded = index % (2 * count)
-    return np.where(folded < count, folded, 2 * count - 1 - folded)
 
 
 def _above(layers: Layers, lateral: Array) -> NDArray[np.int64]:

@@ -16,7 +16,7 @@ from those beside them by several times.
 from __future__ import annotations
 
 from lasersph.compute.vectors import dot, matvec, vector
-from lasersph.particles.filling import GHOSTS
+from lasersph.particles.extended_lattice import GHOSTS
 
 REACH = GHOSTS
 """Layers above and below one with which its rings are evened. Geometry: supports reach no

@@ -25,7 +25,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from lasersph.particles.filling import GHOSTS
+from lasersph.particles.extended_lattice import GHOSTS
 from lasersph.particles.layers import Layers
 from lasersph.sph.kernels import Kernel
 

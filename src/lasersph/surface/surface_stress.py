@@ -128,66 +128,102 @@ class SurfaceStress:
             interval: begin and end of the step [s]. velocity: (d, m) of the melt at the surface of
                 its columns [m/s]. T: (m,) there [K].
         """
-        liquid, forcing = self.liquid, self.forcing
-        slopes = line.slopes
-        axes = range(len(slopes))
-        S, c = length_ratio(slopes), cofactors(slopes)
+        S, c = length_ratio(line.slopes), cofactors(line.slopes)
+        along, across = velocity_gradients(line, velocity, S, c)
+        T = self._temperature(line, interval, T)
+        T_here = line.at_columns(T)
+        viscosity = self.liquid.viscosity * self.liquid.relative_viscosity_at(T_here)
+        shear = self._shear(line, T, viscosity, across, S, c)
+        tension = self.liquid.material.surface_tension_at(T_here)
+        pressure = tension * line.curvature + normal_stress(viscosity, along)
+        found = StressAlong(
+            T_line=T_here,
+            gradient=gradient_size(line, T, S, c).reshape(T_here.shape),
+            shear=shear,
+            strain_rate=along,
+            p_b=self._add_imposed(pressure, line, interval, T_here),
+        )
+        return found, float(np.max(tension))
 
-        # derivatives of the smoothed velocity along each axis, [a][b] of the part b
-        parities = [tuple(ODD_PARITY if a == b else EVEN_PARITY for a in axes) for b in (*axes, -1)]
-        smoothed = [line.smooth(v, one, 0.0) for v, one in zip(velocity, parities, strict=True)]
-        change = [
-            [line.derivative(v, one, axis) for v, one in zip(smoothed, parities, strict=True)]
-            for axis in axes
-        ]
-
-        # grad_s . v = c_ab r_b . v_a/S^2, and n . v_a/S
-        along = 0.0
-        for a, b in product(axes, axes):
-            along = along + c[a, b] * (change[a][b] + slopes[b] * change[a][-1])
-        along = along / S**2
-        across = []
-        for a in axes:
-            lean = 0.0
-            for b in axes:
-                lean = lean - slopes[b] * change[a][b]
-            across.append((lean + change[a][-1]) / S**2)
-        if line.is_axisymmetric:
-            along = along + line.at_columns(smoothed[0]) / line.places[0]
-
-        # temperature of the surface: that of the melt, or a given one
+    def _temperature(
+        self, line: Smoothed, interval: tuple[float, float], T: HostArray
+    ) -> HostArray:
+        """Smoothed temperature of the surface [K]: that of the melt, or a given one."""
         T = line.smooth(T)
-        if (given := forcing.temperature) is not None:
+        if (given := self.forcing.temperature) is not None:
             T = np.full(T.shape, given.mean)
             if given.drive is not None:
                 T = T + given.drive.mean_over(line.support_places, *interval)
+        return T
 
-        # s from grad gamma/S and n . v_a/S, along the axes of a grid
+    def _shear(
+        self,
+        line: Smoothed,
+        T: HostArray,
+        viscosity: HostArray,
+        across: list[HostArray],
+        S: HostArray,
+        c: HostArray,
+    ) -> HostArray:
+        """s from grad gamma/S and n . v_a/S, along the axes of a grid [1/s]."""
         gamma = np.interp(T, *self._gamma_table) if self.has_stress else 0.0 * T
-        T_here = line.at_columns(T)
-        viscosity = liquid.viscosity * liquid.relative_viscosity_at(T_here)
         shear = np.array(
-            [shear_rate(line.derivative(gamma, axis=a) / S, viscosity, across[a]) for a in axes]
+            [
+                shear_rate(line.derivative(gamma, axis=a) / S, viscosity, lean)
+                for a, lean in enumerate(across)
+            ]
         )
-        gradient = np.array([line.derivative(T, axis=a) / S for a in axes])
-        if len(slopes) > 1:
-            # c_ab is symmetric
-            size = np.einsum("abm,am,bm->m", c, gradient, gradient)
-            gradient = np.sqrt(np.maximum(size, 0.0))[None]
-            shear = np.einsum("abm,am->bm", c, shear) / S
+        return shear if len(across) == 1 else np.einsum("abm,bm->am", c, shear) / S
 
-        # p_b = gamma kappa - 2 mu grad_s . v + p_e, with recoil in p_e
-        tension = liquid.material.surface_tension_at(T_here)
-        pressure = tension * line.curvature + normal_stress(viscosity, along)
-        if (drive := forcing.pressure) is not None:
+    def _add_imposed(
+        self, pressure: HostArray, line: Smoothed, interval: tuple[float, float], T: HostArray
+    ) -> HostArray:
+        """gamma kappa - 2 mu grad_s . v and p_e, with recoil in it [Pa]."""
+        if (drive := self.forcing.pressure) is not None:
             pressure = pressure + drive.mean_over(line.places, *interval)
-        if forcing.recoil is not None:
-            pressure = pressure + forcing.recoil(T_here)
-        found = StressAlong(
-            T_line=T_here,
-            gradient=gradient.reshape(T_here.shape),
-            shear=shear,
-            strain_rate=along,
-            p_b=pressure,
-        )
-        return found, float(np.max(tension))
+        if self.forcing.recoil is not None:
+            pressure = pressure + self.forcing.recoil(T)
+        return pressure
+
+
+def velocity_gradients(
+    line: Smoothed, velocity: HostArray, S: HostArray, c: HostArray
+) -> tuple[HostArray, list[HostArray]]:
+    """grad_s . v = c_ab r_b . v_a/S^2, and n . v_a/S along each axis a [1/s].
+
+    Args:
+        S, c: length ratio and `cofactors` of the line.
+    """
+    slopes = line.slopes
+    axes = range(len(slopes))
+    # derivatives of the smoothed velocity along each axis, [a][b] of the part b
+    parities = [tuple(ODD_PARITY if a == b else EVEN_PARITY for a in axes) for b in (*axes, -1)]
+    smoothed = [line.smooth(v, one, 0.0) for v, one in zip(velocity, parities, strict=True)]
+    change = [
+        [line.derivative(v, one, axis) for v, one in zip(smoothed, parities, strict=True)]
+        for axis in axes
+    ]
+
+    along = np.zeros(S.shape)
+    for a, b in product(axes, axes):
+        along = along + c[a, b] * (change[a][b] + slopes[b] * change[a][-1])
+    along = along / S**2
+    # u_r/r more where rings widen as they go outward
+    if line.is_axisymmetric:
+        along = along + line.at_columns(smoothed[0]) / line.places[0]
+
+    across = []
+    for a in axes:
+        lean = np.zeros(S.shape)
+        for b in axes:
+            lean = lean - slopes[b] * change[a][b]
+        across.append((lean + change[a][-1]) / S**2)
+    return along, across
+
+
+def gradient_size(line: Smoothed, T: HostArray, S: HostArray, c: HostArray) -> HostArray:
+    """|grad_s T| on a grid, dT/ds along a line [K/m]."""
+    gradient = np.array([line.derivative(T, axis=a) / S for a in range(len(line.slopes))])
+    if len(gradient) == 1:
+        return gradient
+    return np.sqrt(np.maximum(np.einsum("abm,am,bm->m", c, gradient, gradient), 0.0))

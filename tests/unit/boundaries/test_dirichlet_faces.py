@@ -6,7 +6,8 @@ import pytest
 from lasersph.boundaries import Boundaries
 from lasersph.boundaries.dirichlet_faces import DirichletFace, boundary_coefficients
 from lasersph.particles import Domain, Geometry, Lattice
-from lasersph.particles.filling import DIRICHLET, FREE, fill
+from lasersph.particles.extended_lattice import DIRICHLET, FREE
+from lasersph.particles.filling import fill
 from lasersph.particles.layers import stack
 
 SPACING = 1.0

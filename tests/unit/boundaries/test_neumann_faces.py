@@ -6,7 +6,8 @@ import pytest
 from lasersph.boundaries import Boundaries
 from lasersph.boundaries.neumann_faces import face_power
 from lasersph.particles import Domain, Geometry, Lattice
-from lasersph.particles.filling import MIRROR, fill
+from lasersph.particles.extended_lattice import MIRROR
+from lasersph.particles.filling import fill
 from lasersph.particles.layers import stack
 
 

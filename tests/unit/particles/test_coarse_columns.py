@@ -5,7 +5,8 @@ import pytest
 
 from lasersph.particles import Domain, Geometry, Lattice
 from lasersph.particles.coarse_columns import linear_means
-from lasersph.particles.filling import DIRICHLET, FACES, FREE, MIRROR, fill
+from lasersph.particles.extended_lattice import DIRICHLET, FACES, FREE, MIRROR
+from lasersph.particles.filling import fill
 from lasersph.particles.layers import LEAST_BESIDE, stack
 
 GEOMETRIES = {"plane": Geometry(2), "section": Geometry(2, True), "space": Geometry(3)}

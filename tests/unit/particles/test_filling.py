@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from lasersph.particles import Domain, Geometry, Lattice
-from lasersph.particles.filling import DIRICHLET, FACES, FREE, GHOSTS, MIRROR, PERIODIC, fill
+from lasersph.particles.extended_lattice import DIRICHLET, FACES, FREE, GHOSTS, MIRROR, PERIODIC
+from lasersph.particles.filling import fill
 from lasersph.particles.layers import Layers, stack
 
 

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from lasersph.particles import Domain, Geometry, Lattice
-from lasersph.particles.filling import DIRICHLET, MIRROR, fill
+from lasersph.particles.extended_lattice import DIRICHLET, MIRROR
+from lasersph.particles.filling import fill
 from lasersph.particles.layers import stack
 
 SECTION, PLANE = Geometry(2, is_axisymmetric=True), Geometry(2)

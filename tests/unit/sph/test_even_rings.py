@@ -5,7 +5,7 @@ import pytest
 
 from lasersph import compute
 from lasersph.case import Case
-from lasersph.particles.filling import GHOSTS
+from lasersph.particles.extended_lattice import GHOSTS
 from lasersph.simulation.recipes import recipe_of
 from lasersph.solvers.conduction.body import weighing_of
 from lasersph.sph.even_rings import RingPairs, ring_additions

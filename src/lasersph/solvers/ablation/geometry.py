@@ -14,8 +14,9 @@ from lasersph.boundaries import Boundaries
 from lasersph.boundaries.initial_motion import Rest, SoundWave, Uniform
 from lasersph.boundaries.staggered_walls import wall_particles
 from lasersph.boundaries.vessel import Vessel
+from lasersph.particles.extended_lattice import FREE
 from lasersph.particles.faces import SURFACE, face_pairs, faces_of
-from lasersph.particles.filling import FREE, fill
+from lasersph.particles.filling import fill
 from lasersph.particles.layers import Layers
 from lasersph.physics.equation_of_state import density_under
 

@@ -22,8 +22,9 @@ from lasersph.materials import Material
 from lasersph.materials.caloric_curve import CaloricCurve
 from lasersph.materials.hot_optics import HotOptics
 from lasersph.particles import Lattice
+from lasersph.particles.extended_lattice import DIRICHLET, FREE, MIRROR, PERIODIC
 from lasersph.particles.faces import ENDS
-from lasersph.particles.filling import DIRICHLET, FREE, MIRROR, PERIODIC, Filling, fill
+from lasersph.particles.filling import Filling, fill
 from lasersph.particles.layers import Layers
 from lasersph.particles.neighbor_lists import NeighborList, find_neighbors
 from lasersph.particles.particles import Particles

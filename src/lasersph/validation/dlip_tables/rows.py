@@ -11,7 +11,8 @@ import numpy as np
 
 from lasersph.case import Case, load_case
 from lasersph.materials import Material
-from lasersph.particles.filling import MIRROR, fill
+from lasersph.particles.extended_lattice import MIRROR
+from lasersph.particles.filling import fill
 from lasersph.physics import dimensionless as number
 from lasersph.plots.particle_map import arrangement
 from lasersph.simulation import forecast

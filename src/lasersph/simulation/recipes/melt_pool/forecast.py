@@ -27,12 +27,12 @@ from lasersph.input import format_quantity
 from lasersph.particles.layers import Layers
 from lasersph.physics.dimensionless import marangoni_number, reynolds_number
 from lasersph.physics.flow_limits import flow_limits
-from lasersph.simulation.recipes.melt_pool.build import recoil_of
 from lasersph.simulation.recipes.melt_pool.driven_speed import (
     BELOW_LID,
     BELOW_MOVING_SURFACE,
     driven_speed,
 )
+from lasersph.simulation.recipes.melt_pool.surfaces import recoil_of
 from lasersph.simulation.recipes.recipe import FEWEST_ROWS, FlowForecast
 from lasersph.solvers.melt_pool.layout_renewal import HEIGHT_RANGE
 from lasersph.solvers.melt_pool.settings import MeltPoolSettings

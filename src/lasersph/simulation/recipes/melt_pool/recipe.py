@@ -16,8 +16,9 @@ from lasersph.observers.relief import Relief
 from lasersph.observers.topography import Topography
 from lasersph.observers.view import View
 from lasersph.simulation.recipes.conduction import HeatRecipe
-from lasersph.simulation.recipes.melt_pool.build import surface_line, with_flow
+from lasersph.simulation.recipes.melt_pool.build import with_flow
 from lasersph.simulation.recipes.melt_pool.forecast import flow_forecast, recession_warning
+from lasersph.simulation.recipes.melt_pool.surfaces import surface_line
 from lasersph.simulation.recipes.melt_pool.view import flow_view, numbers_of
 from lasersph.simulation.recipes.recipe import FlowForecast, StepCost, StepForecast
 from lasersph.simulation.scales import box_numbers, melt_numbers

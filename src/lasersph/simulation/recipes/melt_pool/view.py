@@ -6,6 +6,7 @@ The observer of a box looks at some states later than the step after which it is
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import NamedTuple
 
 import numpy as np
 
@@ -30,73 +31,91 @@ def flow_view(
     Args:
         numbers: of the liquid, see `numbers_of`. fetch: gets an array of the solver.
     """
-    flow = solver.flow
-    free = solver.domain.surface
-    backend = solver.backend
+    flow, free, exchange = solver.flow, solver.domain.surface, solver.exchange
     liquid = flow.liquid
     position, velocity = fetch(solver.position), fetch(flow.velocity)
     pressure = fetch(flow.pressure)
-    temperature = gradient = speed = np.zeros(0)
-    # melt that electrons hotter than it hold: the surface of the last flow is no longer its own
-    rests = has_two_temperatures(case.solver) and not solver.has_moved
-
-    # Surface particles from left to right, with the temperature of their centers.
-    found = np.asarray(backend.host_view(backend.rows_where(free.at_surface, 1.0)), np.int64)
-    surface = found[np.argsort(position[0, found], kind="stable")]
-    if surface.size:
-        temperature = backend.host_view(solver.particles["temperature"])[surface]
-        gradient = _along_x(temperature, position[:, surface])
-        # Where the surface is computed, temperature and gradient of the surface itself.
-        if solver.fluid_count > 0.0 and flow.has_block and not rests:
-            of_surface = backend.host_view(free.temperature)[surface]
-            known = backend.host_view(solver.kinds.active)[surface] > 0.0
-            if free.moves:  # a surface that moves is known where it flows only
-                known = backend.host_view(solver.kinds.fluid)[surface] > 0.0
-                of_surface = np.where(known, of_surface, temperature)
-            temperature = of_surface
-            gradient = _along_x(temperature, position[:, surface])
-            gradient = np.where(known, _size(backend.host_view(free.gradient), surface), gradient)
-        # Velocity of the surface: that of the particle and half the jump to its ghost.
-        flows = backend.host_view(solver.kinds.fluid)[surface] * (not rests)
-        level = velocity.shape[0] - 1
-        jump = np.atleast_2d(backend.host_view(free.ghost_velocity_jump)[..., surface])[:level]
-        speed = velocity[:level, surface] + flows * (0.5 * jump)
-        speed = speed[0] if level == 1 else speed
-    sides = case.geometry.faces
-    is_box, kinds = case.flow is not None, {side: case.boundaries.kind_of(side) for side in sides}
+    found = _along_surface(case, solver, position, velocity)
+    is_box, boundaries = case.flow is not None, case.boundaries
+    kinds = {side: boundaries.kind_of(side) for side in case.geometry.faces}
 
     # Sides of a box with a given temperature, which walls of a block do not show.
     wall_temperature = {
-        side: case.boundaries.temperature_of(side, case.initial_temperature)
+        side: boundaries.temperature_of(side, case.initial_temperature)
         for side, kind in kinds.items()
         if is_box and kind in DIRICHLET
     }
     return FlowView(
         velocity=velocity,
         pressure=pressure,
-        flows=backend.host_view(solver.kinds.fluid) > 0.0,
-        surface=surface,
-        surface_temperature=temperature,
-        surface_gradient=gradient,
-        surface_velocity=speed,
-        surface_pressure=pressure[surface],
+        flows=solver.backend.host_view(solver.kinds.fluid) > 0.0,
+        surface=found.particles,
+        surface_temperature=found.temperature,
+        surface_gradient=found.gradient,
+        surface_velocity=found.velocity,
+        surface_pressure=pressure[found.particles],
         divergence_rms=flow.divergence[0],
         divergence_max=flow.divergence[1],
         spacing_min=solver.spacing_min,
         density=liquid.density,
         viscosity=liquid.density * liquid.viscosity,
-        recoil_pressure=_recoil(case, temperature),
+        recoil_pressure=_recoil(case, found.temperature),
         box=is_box,
         wall_temperature=wall_temperature,
         conducting_sides=tuple(
             s for s, kind in kinds.items() if is_box and kind in (*DIRICHLET, NEUMANN)
         ),
-        wall_heat=dict(solver.exchange.heat),
-        wall_impulse=dict(solver.exchange.impulse),
-        wall_pressing={} if free.moves else dict(solver.exchange.pressing),
+        wall_heat=dict(exchange.heat),
+        wall_impulse=dict(exchange.impulse),
+        wall_pressing={} if free.moves else dict(exchange.pressing),
         full_step=solver.state.unclipped_step,
         **numbers,
     )
+
+
+class _AlongSurface(NamedTuple):
+    """Particles at the surface in order of x, with temperature [K], gradient [K/m] and velocity of
+    the surface [m/s] there."""
+
+    particles: np.ndarray
+    temperature: np.ndarray
+    gradient: np.ndarray
+    velocity: np.ndarray
+
+
+def _along_surface(
+    case: Case, solver: MeltPool, position: np.ndarray, velocity: np.ndarray
+) -> _AlongSurface:
+    """The surface: what its particles are, and what it is itself where it is computed."""
+    free, backend, kinds = solver.domain.surface, solver.backend, solver.kinds
+    at_surface = np.asarray(backend.host_view(backend.rows_where(free.at_surface, 1.0)), np.int64)
+    if not at_surface.size:
+        return _AlongSurface(at_surface, *3 * (np.zeros(0),))
+    # melt that electrons hotter than it hold: the surface of the last flow is no longer its own
+    rests = has_two_temperatures(case.solver) and not solver.has_moved
+
+    # The temperature of the particles' centers, or that of the surface itself.
+    particles = at_surface[np.argsort(position[0, at_surface], kind="stable")]
+    temperature = backend.host_view(solver.particles["temperature"])[particles]
+    places = position[:, particles]
+    flows = backend.host_view(kinds.fluid)[particles]
+    if solver.fluid_count > 0.0 and solver.flow.has_block and not rests:
+        of_surface = backend.host_view(free.temperature)[particles]
+        known = backend.host_view(kinds.active)[particles] > 0.0
+        if free.moves:  # a surface that moves is known where it flows only
+            known = flows > 0.0
+            of_surface = np.where(known, of_surface, temperature)
+        temperature = of_surface
+        own = _size(backend.host_view(free.gradient), particles)
+        gradient = np.where(known, own, _along_x(temperature, places))
+    else:
+        gradient = _along_x(temperature, places)
+
+    # Velocity of the surface: that of the particle and half the jump to its ghost.
+    level = velocity.shape[0] - 1
+    jump = np.atleast_2d(backend.host_view(free.ghost_velocity_jump)[..., particles])[:level]
+    speed = velocity[:level, particles] + flows * (not rests) * (0.5 * jump)
+    return _AlongSurface(particles, temperature, gradient, speed[0] if level == 1 else speed)
 
 
 def numbers_of(material: Material) -> dict[str, float]:
