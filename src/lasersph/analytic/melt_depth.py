@@ -25,9 +25,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from lasersph.analytic.extended_curve import ExtendedCurve
+
 Array = NDArray[np.float64]
-FARTHEST = 1e8
-"""To which the last segment of a short curve goes on [J/kg]: ten times what makes metal vapor."""
 Delivered = Callable[[ArrayLike, ArrayLike], Array]
 """Share of one pulse's energy that arrives between times, or arrays of them [s]."""
 Vapor = Callable[[Array], tuple[Array, Array]]
@@ -105,9 +105,9 @@ def melt_depth(
     columns = np.atleast_1d(np.asarray(fluence, float))
     if columns.size > 1 and column_width is None:
         raise ValueError("several columns need a column_width")
-    curve = _Curve(enthalpy, temperature, potential, melt_fraction)
+    curve = ExtendedCurve(enthalpy, temperature, potential, melt_fraction)
     if not delivered(0.0, end_time) > 0.0:
-        return MeltEstimate(0.0, np.nan, np.nan, float(curve.temperature(0.0)))
+        return MeltEstimate(0.0, np.nan, np.nan, float(curve.temperature(np.zeros(1))[0]))
 
     # times of the light, grid in depth, and the columns
     times = _light_times(delivered, end_time)
@@ -124,7 +124,7 @@ def melt_depth(
     densest = float(np.max(absorbed_share / np.diff(faces))) / density
     most = float(columns.max()) * max(float(delivered(0.0, end_time)), 1.0) * densest
     if most > curve.nodes[-1]:
-        curve = _Curve(enthalpy, temperature, potential, melt_fraction, most)
+        curve = ExtendedCurve(enthalpy, temperature, potential, melt_fraction, most)
 
     h = np.zeros(block.shape)
     surface = curve.temperature(h[:, 0])
@@ -172,54 +172,6 @@ def _share_of_light(faces: Array, alpha: float) -> Array:
     return left[:-1] - left[1:]
 
 
-class _Curve:
-    """Piecewise-linear functions of enthalpy, their end segments extended, to `most` at least."""
-
-    def __init__(self, enthalpy, temperature, potential, melt_fraction, most=FARTHEST):
-        h = np.asarray(enthalpy, float)
-        potential = _slanted(np.asarray(potential, float))
-        far = h[-1] + max(1e3 * (h[-1] - h[0]), most)
-        self.nodes = np.append(h, far)
-        self.columns = {}
-        for name, values in (("T", temperature), ("theta", potential), ("f", melt_fraction)):
-            v = np.asarray(values, float)
-            last = v[-1] + (v[-1] - v[-2]) / (h[-1] - h[-2]) * (far - h[-1])
-            self.columns[name] = np.append(v, last if name != "f" else v[-1])
-        self.slope = self._slopes(self.columns["theta"])
-        self.heating = self._slopes(self.columns["T"])
-
-    def temperature(self, h):
-        return np.interp(h, self.nodes, self.columns["T"])
-
-    def potential(self, h):
-        return np.interp(h, self.nodes, self.columns["theta"])
-
-    def melt_fraction(self, h):
-        return np.interp(h, self.nodes, self.columns["f"])
-
-    def potential_slope(self, h):
-        return self.slope[self.nodes.searchsorted(h, side="right")]
-
-    def temperature_slope(self, h):
-        return self.heating[self.nodes.searchsorted(h, side="right")]
-
-    def _slopes(self, values):
-        """Slope of each segment after its first node, and before the first and after the last."""
-        inside = np.diff(values) / np.diff(self.nodes)
-        return np.concatenate([inside[:1], inside, inside[-1:]])
-
-
-def _slanted(potential: Array, share: float = 0.02) -> Array:
-    """The potential with flat inner segments given a slight slope, as over a narrow melting range:
-    Newton's method cycles on isothermal melting. A flat last segment (boiling) stays."""
-    theta = potential.copy()
-    for k in range(1, theta.size - 2):
-        if potential[k + 1] == potential[k]:
-            theta[k] -= share * (potential[k] - potential[k - 1])
-            theta[k + 1] += share * (potential[k + 2] - potential[k + 1])
-    return theta
-
-
 class _Block:
     """Columns of cells; advance() takes one step, conserving energy to the solver's tolerance.
 
@@ -262,7 +214,7 @@ class _Block:
         inflow[1:] -= flow
         return inflow.ravel()
 
-    def _evaporation(self, vapor: Vapor, h: Array, curve: _Curve) -> tuple[Array, Array]:
+    def _evaporation(self, vapor: Vapor, h: Array, curve: ExtendedCurve) -> tuple[Array, Array]:
         """Mass flux (columns,), and power that cells lose by vapor and by the metal that moves up
         through them [W/m^2]."""
         h = h.reshape(self.shape)
@@ -272,7 +224,9 @@ class _Block:
         lost[:, 0] += q
         return m, lost.ravel()
 
-    def _evaporation_slopes(self, vapor: Vapor, h: Array, curve: _Curve) -> tuple[Array, Array]:
+    def _evaporation_slopes(
+        self, vapor: Vapor, h: Array, curve: ExtendedCurve
+    ) -> tuple[Array, Array]:
         """Mass flux, and slope in h of the power that the uppermost cells lose, both (columns,)."""
         T = curve.temperature(h[:, 0])
         m, q = vapor(T)
@@ -281,7 +235,7 @@ class _Block:
         return m, change * curve.temperature_slope(h[:, 0])
 
     def advance(
-        self, h0: Array, heat: Array, step: float, curve: _Curve, halvings: int = 6
+        self, h0: Array, heat: Array, step: float, curve: ExtendedCurve, halvings: int = 6
     ) -> Array:
         """Newton's method with a line search; where it cycles (isothermal melting makes theta(h)
         kinked), the step is taken as two halves."""
@@ -322,7 +276,7 @@ class _Block:
         # what is left of the residual goes into the cells, so that no energy is lost
         return h - r / capacity
 
-    def _newton_change(self, h: Array, capacity: Array, r: Array, curve: _Curve) -> Array:
+    def _newton_change(self, h: Array, capacity: Array, r: Array, curve: ExtendedCurve) -> Array:
         """Solve (capacity + outflow slope) change = -r, all columns as one tridiagonal system."""
         # d(out)/dh of the cell itself and of those above and below
         slope = curve.potential_slope(h)

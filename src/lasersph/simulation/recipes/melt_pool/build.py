@@ -70,7 +70,7 @@ def with_flow(case: Case, settings: MeltPoolSettings, layers: Layers, heat: Cond
 def static_data(
     case: Case, settings: MeltPoolSettings, layers: Layers, body: Body
 ) -> StaticParticleData:
-    """What flow needs of each particle and does not change: support, volume, layer, weights."""
+    """Support, volume, layer and weights of each particle, which no step changes."""
     filling, count = body.filling, body.count
     weighing = weighing_of(
         case.particles, layers, use_second_moment=settings.weights == "second-moment"
