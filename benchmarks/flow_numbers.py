@@ -21,12 +21,12 @@ import numpy as np
 from lasersph import load_case, open_run, run
 from lasersph.physics import flow_limits
 from lasersph.solvers.step_control import StepFailed
-from lasersph.validation.cubes.rows import energy_share
-from lasersph.validation.cubes.rows import vortices_of as cube_of
 from lasersph.validation.dam_break.rows import front_of
 from lasersph.validation.lid_driven_cavity.center_lines import center_line
 from lasersph.validation.lid_driven_cavity.rows import deviation, lines_of
 from lasersph.validation.taylor_green.rows import energy_rate, velocity_error, vortices_of
+from lasersph.validation.vortices_in_space.rows import energy_share
+from lasersph.validation.vortices_in_space.rows import vortices_of as cube_of
 
 COUNT, REYNOLDS, END = 20, 400, 35.0
 SHIPPED = (3.1, 0.01, 0.06)
@@ -41,7 +41,7 @@ VORTICES = ((0.01, 0.03), (0.01, 0.06), (0.01, 0.12), (0.01, 0.25), (0.002, 0.06
 CUBES = tuple((count, shifting) for shifting in (0.01, 0.04, 0.16, 0.5) for count in (24, 48))
 """Particles a period, and factor of the shifting."""
 EXACT = 0.8835378
-"""Energy after 1 s over that of the start, from `validation/cubes/vortices.csv`."""
+"""Energy after 1 s over that of the start, from `validation/vortices_in_space/reference.csv`."""
 SPEEDS = ("flow_surface_speed_max_m_s", "flow_surface_speed_mean_m_s",
           "flow_speed_max_m_s", "flow_speed_rms_m_s")  # fmt: skip
 

@@ -168,6 +168,12 @@ class FlowConditions(Model):
         return is_named and all(each == AT_REST for each in others)
 
     @property
+    def mirror(self) -> str:
+        """Front or back where that alone of the two is a plane of symmetry, else nothing."""
+        planes = [face for face in LATERAL[1] if self.faces[face].kind == "symmetry"]
+        return planes[0] if len(planes) == 1 else ""
+
+    @property
     def faces(self) -> dict[str, FlowCondition]:
         """The conditions by face, those of y, which only blocks have, included."""
         return {name: getattr(self, name) or self.sides or AT_REST for name in ENDS}

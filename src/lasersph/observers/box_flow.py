@@ -1,6 +1,7 @@
 """A closed box of liquid: center lines and, of a section, its stream function.
 
-The lines of a block lie half way between front and back.
+The lines of a block lie half way between front and back, or in the one of them that is a plane of
+symmetry: in the middle of the whole.
 
 Interpolating from particles takes about as long as a step, so it is done in every `EVERY`-th step
 and at the end; between, the history repeats the last value.
@@ -118,7 +119,7 @@ class BoxFlow(Observer):
         view, self.unseen = self.unseen, None
         if view is None:
             return
-        box = Box(*self.edges)
+        box = Box(*self.edges, mirror=flow_of(view).mirror)
         self.found = {
             "time_s": view.time,
             "width_m": box.width,

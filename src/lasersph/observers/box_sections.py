@@ -11,19 +11,20 @@ along all walls: a clockwise eddy has psi < 0 (below a lid that moves to the rig
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from lasersph.observers.interpolation import interpolate
-from lasersph.particles.faces import ENDS
+from lasersph.particles.faces import BACK, ENDS, FRONT
 
 FINER = 3
 
 
 @dataclass(frozen=True)
 class Box:
-    """Edges of a box [m]; front and back of a block, whose sections lie half way between them."""
+    """Edges of a box [m], and its section: that of a block lies half way between front and back,
+    or in the one of them about which the block is mirrored."""
 
     left: float
     right: float
@@ -31,14 +32,15 @@ class Box:
     top: float
     front: float = 0.0
     back: float = 0.0
+    mirror: str = field(default="", kw_only=True)
 
     @classmethod
-    def around(cls, position: np.ndarray, width: np.ndarray) -> Box:
+    def around(cls, position: np.ndarray, width: np.ndarray, mirror: str = "") -> Box:
         """The box that particles on a lattice fill; position and width (d, n) [m]."""
         low = np.min(position - 0.5 * width, axis=1).tolist()
         high = np.max(position + 0.5 * width, axis=1).tolist()
         across = (low[1], high[1]) if len(low) == 3 else ()
-        return cls(low[0], high[0], low[-1], high[-1], *across)
+        return replace(cls(low[0], high[0], low[-1], high[-1], *across), mirror=mirror)
 
     @property
     def edges(self) -> list[float]:
@@ -61,9 +63,21 @@ class Box:
         return self.back - self.front
 
     def in_section(self, x: np.ndarray, z: np.ndarray) -> np.ndarray:
-        """Points (d, m) at some x and z (m,), in a block half way between front and back [m]."""
-        middle = np.full(x.shape, 0.5 * (self.front + self.back))
-        return np.stack([x, middle, z] if self.breadth else [x, z])
+        """Points (d, m) of the section at some x and z (m,) [m]."""
+        middle = {FRONT: self.front, BACK: self.back}
+        y = np.full(x.shape, middle.get(self.mirror, 0.5 * (self.front + self.back)))
+        return np.stack([x, y, z] if self.breadth else [x, z])
+
+    def with_images(
+        self, position: np.ndarray, velocity: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Particles (d, n) [m], [m/s], and their images across the mirror."""
+        if not self.mirror:
+            return position, velocity
+        plane = {FRONT: self.front, BACK: self.back}[self.mirror]
+        turned = np.array([[1.0], [-1.0], [1.0]])
+        images = turned * position + np.array([[0.0], [2.0 * plane], [0.0]])
+        return np.hstack([position, images]), np.hstack([velocity, turned * velocity])
 
     def across(self, shares: np.ndarray) -> np.ndarray:
         """x at some shares of the width, counted from the left [m]."""
@@ -123,7 +137,7 @@ def center_lines(
     upward = box.in_section(box.across(middle), z)
     across = box.in_section(x, box.up(middle))
     places = np.concatenate([upward, across], axis=1)
-    found = interpolate(position, velocity, places, degree=2)
+    found = interpolate(*box.with_images(position, velocity), places, degree=2)
     return CenterLines(z, found[0, : shares.size], x, found[-1, shares.size :])
 
 

@@ -49,7 +49,8 @@ class FlowView:
         surface_tension_slope: d gamma/dT [N/(m K)], 0 where there is none.
         recoil_pressure: (s,) recoil pressure 0.54 p_sat(T) of a free surface [Pa]; None where
             the material has no data of its vapor.
-        box: whether this is a closed box that is all fluid, from a `[solver.flow]` table.
+        box: whether this is a closed box that is all fluid, from a `[solver.flow]` table. mirror:
+            its front or back, about which it is mirrored.
         conductivity: of the liquid [W/(m K)]; boxes report heat fluxes with it.
         wall_temperature: of each side of a box with a given one [K], by the name of the side:
             left, right, bottom, surface.
@@ -80,6 +81,7 @@ class FlowView:
     surface_tension_slope: float = 0.0
     recoil_pressure: np.ndarray | None = None
     box: bool = False
+    mirror: str = ""
     conductivity: float = 0.0
     wall_temperature: Mapping[str, float] = field(default_factory=dict)
     conducting_sides: tuple[str, ...] = ()

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from lasersph.boundaries import FlowConditions
 from lasersph.input import format_quantity
 from lasersph.observers.box_sections import Box, CenterLines, center_lines
 from lasersph.output import Run, RunOrFolder, open_run
@@ -175,7 +176,8 @@ def lines_of(run: Run, shares: np.ndarray, number: int = -1) -> CenterLines:
         number: of the snapshot; the last if not given.
     """
     start, step = run.snapshots[0], run.snapshots[number]
-    box = Box.around(start["position"], start["width"])
+    conditions = FlowConditions.model_validate(run.case["solver"]["flow"])
+    box = Box.around(start["position"], start["width"], conditions.mirror)
     return center_lines(step["position"], step["velocity"], box, shares)
 
 

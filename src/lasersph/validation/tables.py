@@ -27,3 +27,9 @@ def column_of(cells: tuple[str, ...]) -> list[float] | list[str]:
         return [float(cell) if cell not in ("", "-") else np.nan for cell in cells]
     except ValueError:
         return list(cells)
+
+
+def quantities_at(table: dict[str, np.ndarray], key: str, number: float) -> dict[str, float]:
+    """Values by name of a table of `quantity` and `value`, in the rows where `key` is a number."""
+    rows = np.flatnonzero(table[key] == number)
+    return {str(table["quantity"][row]): float(table["value"][row]) for row in rows}

@@ -40,3 +40,17 @@ def test_refusals(data, message):
     """What contradicts itself is refused in words."""
     with pytest.raises(ValidationError, match=message):
         FlowConditions.model_validate(data)
+
+
+@pytest.mark.parametrize(
+    "front, back, mirror",
+    [
+        ("symmetry", "no-slip", "front"),
+        ("no-slip", "symmetry", "back"),
+        ("symmetry", "symmetry", ""),
+        ("no-slip", "no-slip", ""),
+    ],
+)
+def test_half_of_a_block(front, back, mirror):
+    """One plane of symmetry along y ends the half of a block; two end a part of a pattern."""
+    assert FlowConditions.model_validate({"front": front, "back": back}).mirror == mirror

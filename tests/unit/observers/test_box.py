@@ -68,6 +68,24 @@ def test_lines_at_given_shares():
     assert lines.w == pytest.approx([np.pi * SPEED, 0.0], abs=0.01)
 
 
+@pytest.mark.parametrize("mirror", ["front", "back"])
+def test_lines_of_half_a_block_lie_in_its_mirror(mirror):
+    """u = z^2 (1 - y^2) with y from the mirror: even, so that a parabola finds it at y = 0 among
+    particles and images."""
+    ticks = (np.arange(8) + 0.5) / 16.0
+    sign = 1.0 if mirror == "front" else -1.0
+    x, y, z = (one.ravel() for one in np.meshgrid(2 * ticks, sign * ticks, 2 * ticks))
+    position, width = np.array([x, y, z]), np.array([[0.125], [0.0625], [0.125]])
+    velocity = np.array([z**2 * (1.0 - y**2), y, 0.0 * z])
+    box = Box.around(position, width * np.ones_like(position), mirror)
+    lines = center_lines(position, velocity, box, np.array([0.25, 0.5]))
+    assert lines.u == pytest.approx([0.25**2, 0.5**2], abs=1e-3)
+    # v is odd: its images have the other sign, and lines see none of it
+    found, turned = box.with_images(position, velocity)
+    assert found.shape == (3, 1024)
+    assert np.all(turned[1] == found[1])
+
+
 def test_extremum_of_a_parabola():
     """Exact between the samples; at an end the end."""
     places = np.linspace(0.0, 1.0, 11)

@@ -61,6 +61,7 @@ def flow_view(
         viscosity=liquid.density * liquid.viscosity,
         recoil_pressure=_recoil(case, found.temperature),
         box=is_box,
+        mirror=case.flow.mirror if case.flow else "",
         wall_temperature=wall_temperature,
         conducting_sides=tuple(
             s for s, kind in kinds.items() if is_box and kind in (*DIRICHLET, NEUMANN)
