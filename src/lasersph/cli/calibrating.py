@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Sequence
 from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -27,6 +28,7 @@ from lasersph.input.text_table import text_table
 if TYPE_CHECKING:
     from lasersph.studies.calibration_plan import CalibrationPlan
     from lasersph.studies.find_runs import FindPlan
+    from lasersph.studies.find_settings import FoundSettings
     from lasersph.sweeps import Point, Table
 
 PlanName = Annotated[
@@ -105,22 +107,15 @@ def find(
 ) -> None:
     """Find settings of a sweep that reach wanted values inside limits, and how probably."""
     from lasersph.cli.stop_signals import StopSignals
-    from lasersph.input import CaseError, QuantityError, format_quantity
+    from lasersph.input import CaseError, QuantityError
     from lasersph.output import OutputError
     from lasersph.simulation.time_loop import Stopped
     from lasersph.studies import find_runs
     from lasersph.studies.find_settings import parse_target
     from lasersph.sweeps import Table
 
-    # A folder has its runs, a plan makes them: each has options of its own.
     folder = place if place.is_dir() else out or Path("runs") / place.stem
-    if place.is_dir() and (out is not None or engine.words() or dry_run or not want):
-        raise WrongCommand(
-            f"{place} is a folder, whose runs are looked at: it takes --want and --under; a plan "
-            "(lasersph new --plan find FILE) has runs of its own"
-        )
-    if not place.is_dir() and want:
-        raise WrongCommand("--want is for the folder of a sweep: a plan says what is wanted")
+    _refuse_mixed(place, want, is_planned=out is not None or bool(engine.words()) or dry_run)
     plan = None if place.is_dir() else find_runs.read_find_plan(place)
     if plan is not None and dry_run:
         _forecast_find(plan, engine)
@@ -148,6 +143,7 @@ def find(
             raise
         except (QuantityError, OutputError, ValueError, KeyError) as error:
             raise WrongCommand(str(error.args[0])) from None
+    # What can be reached, where nothing is found.
     table = Table.read(folder)
     if not found:
         targets = plan.targets if plan is not None else [parse_target(text) for text in want or ()]
@@ -156,8 +152,28 @@ def find(
             f"no settings inside the runs of {folder} do all of this; they reach {reached}"
         )
     tell_warnings(table)
+    _print_found(table, found)
 
-    # Settings in the units of the plan, numbers in those of their columns.
+
+def _refuse_mixed(place: Path, want: Sequence[str] | None, *, is_planned: bool) -> None:
+    """Raise WrongCommand for options of the other kind: a folder has its runs, a plan makes them.
+
+    Args:
+        is_planned: whether there are options of a plan.
+    """
+    if place.is_dir() and (is_planned or not want):
+        raise WrongCommand(
+            f"{place} is a folder, whose runs are looked at: it takes --want and --under; a plan "
+            "(lasersph new --plan find FILE) has runs of its own"
+        )
+    if not place.is_dir() and want:
+        raise WrongCommand("--want is for the folder of a sweep: a plan says what is wanted")
+
+
+def _print_found(table: Table, found: Sequence[FoundSettings]) -> None:
+    """Settings in the units of the plan, numbers in those of their columns."""
+    from lasersph.input import format_quantity
+
     units = table.shown_units()
     rows = []
     for one in found:

@@ -99,50 +99,53 @@ def light_text(laser: dict[str, Any], computed: dict[str, Any] | None = None) ->
     Args:
         computed: the table `laser` of a summary, with the fluence that follows from an energy.
     """
-    fluence = laser.get("fluence")
-    pulse = laser.get("pulse") or {}
-    beam = laser.get("beam") or {}
-    energy, spot = laser.get("pulse_energy"), laser.get("spot") or {}
-    intensity, power = laser.get("intensity"), laser.get("power")
-
     # Without an amount of light there is none.
-    if fluence is intensity is energy is power is None:
+    if all(laser.get(key) is None for key in ("fluence", "pulse_energy", "intensity", "power")):
         return ""
-
-    # Number and length of the pulses, then their amount of light in the words of the case.
+    pulse = laser.get("pulse") or {}
     count = int(pulse.get("count") or 1)
-    lasts = pulse.get("fwhm") or pulse.get("duration")
     text = " under one pulse" if count == 1 else f" under {count} pulses"
-    if lasts:
+    if lasts := pulse.get("fwhm") or pulse.get("duration"):
         text += f" of {quantity(lasts, 's', 3)}"
+    return f"{text} with {_amount_text(laser, count, computed)}{_beam_text(laser)}"
+
+
+def _amount_text(laser: dict[str, Any], count: int, computed: dict[str, Any] | None) -> str:
+    """How much light there is in so many pulses, in the words of the case."""
+    fluence, energy, intensity = (laser.get(k) for k in ("fluence", "pulse_energy", "intensity"))
     each = "" if count == 1 else " each"
     if fluence is not None:
-        text += f" with {quantity(1e-4 * fluence, 'J/cm^2', 3)}{each}{fluence_kind(laser)}"
-    elif energy is not None:
-        whole = "" if count == 1 else f", {quantity(count * energy, 'J', 3)} in all"
-        whole += "," * (count > 1 and bool(spot.get("diameter")) and not computed)
-        text += f" with {quantity(energy, 'J', 3)}{each}{whole}"
-        # The fluence of a spot differs from place to place: that which was computed.
-        if computed:
-            mean = 1e-4 * computed["mean_fluence_J_m2"]
-            kind = " in the mean over a period" * (beam.get("kind") == "interference")
-            text += f", {quantity(mean, 'J/cm^2', 3)}{kind} where it is computed,"
-    elif intensity is not None:
-        text += f" with {quantity(1e-4 * intensity, 'W/cm^2', 3)}{fluence_kind(laser)}"
-    else:
-        text += f" with {quantity(power, 'W', 3)}"
+        return f"{quantity(1e-4 * fluence, 'J/cm^2', 3)}{each}{fluence_kind(laser)}"
+    if energy is None and intensity is not None:
+        return f"{quantity(1e-4 * intensity, 'W/cm^2', 3)}{fluence_kind(laser)}"
+    if energy is None:
+        return quantity(laser["power"], "W", 3)
 
-    # The shape of the beam last: spot, pattern, widths.
+    # The fluence of a spot differs from place to place: that which was computed.
+    text = f"{quantity(energy, 'J', 3)}{each}"
+    if count > 1:
+        has_spot = bool((laser.get("spot") or {}).get("diameter"))
+        text += f", {quantity(count * energy, 'J', 3)} in all" + "," * (has_spot and not computed)
+    if computed:
+        mean = quantity(1e-4 * computed["mean_fluence_J_m2"], "J/cm^2", 3)
+        is_pattern = (laser.get("beam") or {}).get("kind") == "interference"
+        text += f", {mean}{' in the mean over a period' * is_pattern} where it is computed,"
+    return text
+
+
+def _beam_text(laser: dict[str, Any]) -> str:
+    """Shape of the beam: spot, pattern, widths."""
+    beam, spot = laser.get("beam") or {}, laser.get("spot") or {}
+    text = ""
     if spot.get("diameter"):
         definition = spot["definition"].replace("e^2", "e²")
-        text += f" in a spot of {quantity(spot['diameter'], 'm', 3)} ({definition})"
+        text = f" in a spot of {quantity(spot['diameter'], 'm', 3)} ({definition})"
     if beam.get("kind") in (None, "uniform"):
         return text
     if beam["kind"] == "interference":
         period = beam.get("period")
-        return f"{text} of interfering beams" + (
-            f" (period {quantity(period, 'm', 3)})" if period else ""
-        )
+        text += " of interfering beams"
+        return f"{text} (period {quantity(period, 'm', 3)})" if period else text
     sizes = (
         f"{words} {quantity(beam[key], 'm', 3)}" for key, words in WIDTHS.items() if beam.get(key)
     )

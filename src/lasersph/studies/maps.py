@@ -65,16 +65,11 @@ def process_map(
         KeyError: no run has the number. OutputError: no sweep there; scikit-learn is missing.
     """
     table = runs if isinstance(runs, Table) else Table.read(runs)
-    # points and values of the runs, which must span the map
     keys = _chosen_keys(table, x, y)
     points = np.stack([table.values(key) for key in keys], axis=1)
     values = sizes_of(table, show)
     good = np.isfinite(values)
-    if good.sum() < max(LEAST_RUNS, len(keys) + 1):
-        raise ValueError(f"only {good.sum()} of {good.size} runs have {show}; a map needs more")
-    for key, column in zip(keys, points[good].T, strict=True):
-        if np.ptp(column) == 0.0:
-            raise ValueError(f"{key} is {column[0]:g} in every run with a result")
+    _refuse_too_few(keys, points, good, show)
     # the number over the keys as the runs lie, heat over their logarithms
     box = box_of_runs(points)
     layout = RunPlaces(box, points)
@@ -91,14 +86,9 @@ def process_map(
     if target is not None:
         lines["target"] = layout.contour(field, target)
     # unit by the dimension of the runs; what is missing in words
-    known = RESULTS.get(show)
+    known, units = RESULTS.get(show), table.shown_units()
     unit = unit_in(known.unit, table.amount_dimension) if known else unit_of(show)
-    notes, units = one_sided_notes(table, keys), table.shown_units()
-    if (lost := int((~good).sum())) > 0:
-        has = "has" if lost == 1 else "have"
-        notes.append(f"{lost} of {good.size} runs {has} no result: nothing is interpolated there.")
-    if is_amount(show) and (older := count_of_older(table)):
-        notes.append(f"{older} of {good.size} runs {OLDER}.")
+    notes = [*one_sided_notes(table, keys), *_notes_on_runs(table, show, good)]
     if target is not None and not lines["target"]:
         notes.append(f"{format_quantity(target, unit)} lies nowhere between the runs.")
     return ProcessMap(
@@ -122,6 +112,26 @@ def process_map(
         target=target,
         notes=tuple(notes),
     )
+
+
+def _refuse_too_few(keys: list[str], points: Array, good: NDArray[np.bool_], show: str) -> None:
+    """Raise ValueError where the runs with a result, of points (runs, keys), span no map."""
+    if good.sum() < max(LEAST_RUNS, len(keys) + 1):
+        raise ValueError(f"only {good.sum()} of {good.size} runs have {show}; a map needs more")
+    for key, column in zip(keys, points[good].T, strict=True):
+        if np.ptp(column) == 0.0:
+            raise ValueError(f"{key} is {column[0]:g} in every run with a result")
+
+
+def _notes_on_runs(table: Table, show: str, good: NDArray[np.bool_]) -> list[str]:
+    """Runs without a result, and those of an earlier version, in words."""
+    notes, lost = [], int((~good).sum())
+    if lost > 0:
+        has = "has" if lost == 1 else "have"
+        notes.append(f"{lost} of {good.size} runs {has} no result: nothing is interpolated there.")
+    if is_amount(show) and (older := count_of_older(table)):
+        notes.append(f"{older} of {good.size} runs {OLDER}.")
+    return notes
 
 
 def count_of_older(table: Table) -> int:
