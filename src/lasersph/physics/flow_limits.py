@@ -9,8 +9,9 @@ pressure, viscosity with the stress of the surface in it, and buoyancy. Correcte
 0.06 l / v, 0.23 spacings, since a pressure that acts for a whole step of 0.94 spacings loses 1 % of
 the energy of a vortex within a tenth of its turn; viscosity 0.05 l^2 / nu where it is explicit,
 since forward Euler with the SPH Laplacian diverges beyond 0.0575 l^2 / nu, and 0.2 l^2 / nu where
-it is implicit: the split of viscous forces from pressure errs within sqrt(nu dt) of the walls. Heat
-is implicit and has no limit. What a surface that moves asks for is said by itself.
+it is implicit: in boxes whose surface does not move the split of viscous forces from pressure errs
+within sqrt(nu dt) of the walls. Heat is implicit and has no limit. What a surface that moves asks
+for is said by itself.
 """
 
 from __future__ import annotations
@@ -25,8 +26,9 @@ ADVECTION = 0.06
 vortex's energy within a tenth of its turn (`benchmarks/flow_numbers.py --only vortices`)."""
 DIFFUSION, SPLIT = 0.05, 0.2
 """Shares of l^2 / nu that explicit and implicit viscosity are allowed. Stability: forward Euler
-with this Laplacian diverges beyond 0.0575 (von Neumann); the split of viscosity from pressure errs
-within (nu dt)^1/2 of walls, which is 0.45 of a support, 1.7 spacings, at 0.2."""
+with this Laplacian diverges beyond 0.0575 (von Neumann); in boxes whose surface does not move the
+split of viscosity from pressure errs within (nu dt)^1/2 of walls, which is 0.45 of a support, 1.7
+spacings, at 0.2. Elsewhere the pressure of the step before acts with viscosity."""
 
 
 def flow_limits(
