@@ -250,7 +250,7 @@ class Backend:
             out: array or tuple of arrays (None: not stored), one per returned value.
             rows: active rows (index array); the others keep their values.
             finish: pointwise function of `total` (or `total_0`, ...), fields at i and constants.
-            reduce: None or per returned value None, "sum", "max" or "min".
+            reduce: None or per returned value None, "sum", "max" or "min", component by component.
             combine: None for sums, or per value of `function` "sum", "min" or "max" over the
                 neighbors, component by component. A row without neighbors has 0, inf or -inf;
                 NaN of any neighbor stays NaN.

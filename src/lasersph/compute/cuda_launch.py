@@ -58,15 +58,15 @@ REDUCE = {
 """How a value enters a reduction; NaN stays."""
 _SHARE = f"shared = cuda.shared.array({THREADS}, real)"
 _COMBINE = """
-shared[thread] = q{k}
+shared[thread] = {q}
 cuda.syncthreads()
 width = {half}
 while width > 0:
     if thread < width:
-        q{k} = shared[thread]
-        e{k} = shared[thread + width]
+        {q} = shared[thread]
+        {e} = shared[thread + width]
         {update}
-        shared[thread] = q{k}
+        shared[thread] = {q}
     cuda.syncthreads()
     width //= 2
 if thread == 0:
@@ -139,10 +139,10 @@ class CudaLoopText(LoopText):
         # combine the threads of a group by halves, in shared memory
         if ends:
             body += [_SHARE, "thread = cuda.threadIdx.x"]
-        kept = [(k, how) for k, how in enumerate(self.loop.reduce) if how is not None]
-        for place, (k, how) in enumerate(kept):
-            update = REDUCE[how].format(f"q{k}", f"e{k}")
-            text = _COMBINE.format(k=k, half=THREADS // 2, place=place, update=update)
+        for place, (q, how) in enumerate(zip(ends, self.reductions, strict=True)):
+            e = "e" + q.removeprefix("q")
+            update = REDUCE[how].format(q, e)
+            text = _COMBINE.format(q=q, e=e, half=THREADS // 2, place=place, update=update)
             body += text.strip("\n").split("\n")
         names = ", ".join(["count", *self.parameters()])
         text = "\n    ".join([f"def loop({names}):", *body])

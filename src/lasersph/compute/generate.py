@@ -85,7 +85,8 @@ class LoopText:
     Attributes:
         HEAD: first lines of the file. INNER: lines before a function that the loop calls.
         REDUCE: how a value enters a reduction.
-        sums: names of what the pairs of a row are combined to, and how.
+        sums: names of what the pairs of a row are combined to, and how. reductions: how each number
+            is reduced.
     """
 
     HEAD = _HEAD
@@ -96,6 +97,7 @@ class LoopText:
         self.loop = loop
         self.unit = SourceUnit()
         self.sums: list[tuple[str, str]] = []
+        self.reductions: list[str] = []
         self.arrays: dict[str, Any] = {}
         self.tables: dict[str, Any] = {}
         self.reals: dict[str, tuple[str, int]] = {}
@@ -310,7 +312,8 @@ class LoopText:
         return stores
 
     def _reductions(self, values: list[str], items: list) -> tuple[list, list, list]:
-        """Lines that start and update the reductions of a block, and the names of their values."""
+        """Lines that start and update the reductions of a block, and the names of their values,
+        component by component of vectors and tensors."""
         starts, updates, ends = [], [], []
         reduce = self.loop.reduce
         if reduce and len(reduce) != len(values):
@@ -318,12 +321,15 @@ class LoopText:
         for k, how in enumerate(reduce):
             if how is None:
                 continue
-            if items[k][1] != ():
-                raise ValueError(f"result {k} is no scalar and cannot be reduced")
-            starts.append(f"q{k} = {START[how]}")
-            updates.append(f"e{k} = real({values[k]})")
-            updates.append(self.REDUCE[how].format(f"q{k}", f"e{k}"))
-            ends.append(f"q{k}")
+            if items[k][0] == "group":
+                raise ValueError(f"result {k} is a tuple and cannot be reduced")
+            parts = (_names(items[k], name) for name in (f"q{k}", f"e{k}", values[k]))
+            for q, e, value in zip(*parts, strict=True):
+                starts.append(f"{q} = {START[how]}")
+                updates.append(f"{e} = real({value})")
+                updates.append(self.REDUCE[how].format(q, e))
+                ends.append(q)
+                self.reductions.append(how)
         return starts, updates, ends
 
     def list_parameters(self) -> list[str]:

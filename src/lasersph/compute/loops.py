@@ -266,7 +266,7 @@ class Loops:
             for k, (name, component) in enumerate(names.values()):
                 is_tuple = isinstance(given.numbers[name], tuple | list)
                 places[name].append((which, k, component if is_tuple else -1))
-        reductions = tuple([how for how in signature.reduce if how is not None])
+        reductions = tuple(text.reductions)
         return Compiled(
             entry,
             tuple(text.arrays),

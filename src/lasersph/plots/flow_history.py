@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from lasersph.boundaries import FlowConditions
 from lasersph.input import format_quantity
 from lasersph.observers.box_sections import Box, CenterLines, center_lines
 from lasersph.output import Run, RunOrFolder, open_run
@@ -176,9 +175,16 @@ def lines_of(run: Run, shares: np.ndarray, number: int = -1) -> CenterLines:
         number: of the snapshot; the last if not given.
     """
     start, step = run.snapshots[0], run.snapshots[number]
-    conditions = FlowConditions.model_validate(run.case["solver"]["flow"])
-    box = Box.around(start["position"], start["width"], conditions.mirror)
+    box = Box.around(start["position"], start["width"], _mirror_of(run))
     return center_lines(step["position"], step["velocity"], box, shares)
+
+
+def _mirror_of(run: Run) -> str:
+    """Front or back of a block where that alone of the two is a plane of symmetry."""
+    flow = run.case.get("solver", {}).get("flow") or {}
+    kinds = {side: (flow.get(side) or {}).get("kind") for side in ("front", "back")}
+    planes = [side for side, kind in kinds.items() if kind == "symmetry"]
+    return planes[0] if len(planes) == 1 else ""
 
 
 def center_line_figure(run: RunOrFolder) -> Figure | None:

@@ -26,9 +26,9 @@ class BlockWalls:
         potential, enthalpy: heat potential [W/m] and enthalpy [J/kg] of a wall's temperature [K].
 
     Attributes:
-        exchange_heat: whether any does. min_distance: see `wall_terms` [m]. faces: (M,) numbers by
-            the names of `ghost_faces`, 0 where there is none. rules: (M,) what they mean to heat,
-            by the names of `ghost_walls`. force_shares: by face, see
+        exchange_heat: whether any does. min_distance: see `wall_terms` [m]. heat_face: (M,) number
+            of the face that heat crosses, 0 where there is none. rules: (M,) what they mean to
+            heat, by the names of `ghost_walls`. force_shares: lower, upper, see
             `FaceConditions.force_shares`.
     """
 
@@ -46,7 +46,7 @@ class BlockWalls:
         self.potential, self.enthalpy = potential, enthalpy
         self.exchange_heat = bool(rules.dirichlet.any() or rules.flux.any())
         self.min_distance = ghosts.surface.min_distance
-        self.faces: dict[str, Array] = {}
+        self.heat_face = backend.zeros(0)
         self.rules: dict[str, Array] = {}
         # tables by the type of a ghost; particles themselves have no wall
         table = ghosts.particles.table
@@ -56,9 +56,9 @@ class BlockWalls:
         for name, values in self._state(rules.wall_temperature).items():
             self._walls[name] = table(is_ghost * values)
         self._varies = table(rules.varies) if rules.varies.any() else None
-        self._faces = {"wall": table(rules.walls), "heat_face": table(rules.heat_face)}
+        self._heat_face = table(rules.heat_face)
         shares = conditions.force_shares(ghosts.particles.ghost_types)
-        self.force_shares = {face: table(values) for face, values in shares.items()}
+        self.force_shares = {end: table(values) for end, values in shares.items()}
 
     def _state(self, temperature: np.ndarray) -> dict[str, np.ndarray]:
         """Temperature, heat potential and enthalpy of walls."""
@@ -69,7 +69,7 @@ class BlockWalls:
         }
 
     def extend(self) -> None:
-        """Set `rules` and `faces` of the particles and the ghosts that were found."""
+        """Set `rules` and `heat_face` of the particles and the ghosts that were found."""
         backend, ghosts, size = self.backend, self.ghosts, self.ghosts.size
         fields = {"ghost_type": ghosts.sources["ghost_type"]}
         # what `wall_terms` reads, where walls matter to heat
@@ -80,11 +80,7 @@ class BlockWalls:
             self.rules["normal"] = backend.zeros((ghosts.dimension, size))
             out = tuple(self.rules.values())
             backend.pointwise(ghost_fields.ghost_walls, fields, out, **self._walls)
-        # faces across each axis, for what they exchange
-        self.faces = {"wall": backend.zeros((ghosts.dimension, size))}
-        self.faces["heat_face"] = backend.zeros(size)
-        out = tuple(self.faces.values())
-        backend.pointwise(ghost_fields.ghost_faces, fields, out, **self._faces)
+        self.heat_face = ghosts.of_type(self._heat_face)
 
     def find_varying(self) -> None:
         """Set the state of ghosts beyond a face whose temperature varies along it.
@@ -107,4 +103,4 @@ class BlockWalls:
             return
         given = {name: self.rules[name] for name in ("normal", "plane")}
         number = self.conditions.number_of(SURFACE)
-        self.ghosts.find_tangent_planes(given, self._faces["heat_face"], number)
+        self.ghosts.find_tangent_planes(given, self._heat_face, number)

@@ -51,9 +51,8 @@ class GhostRules:
         dirichlet: (w,) 1 beyond a Dirichlet face. wall_temperature: (w,) [K], its mean where it
             varies along the face, as `varies` (w,) says. flux: (w,) into the body [W/m^2]. normal:
             (d, w) outward, plane: (w,) place of the face along it [m]. heat_face: (w,) number
-            of the face whose heat condition holds, see `FaceConditions.number_of`. walls: (d, w)
-            those across each axis that lie between for the flow. sticks: (d, w) 1 where no liquid
-            slips along it. Else 0.
+            of the face whose heat condition holds, see `FaceConditions.number_of`. sticks: (d, w)
+            1 where a face across an axis lies between along which no liquid slips. Else 0.
     """
 
     sign: Array
@@ -67,7 +66,6 @@ class GhostRules:
     normal: Array
     plane: Array
     heat_face: Array
-    walls: Array
     sticks: Array
 
     @property
@@ -181,12 +179,10 @@ class FaceConditions:
             added=added,
             varies=np.zeros(shape[1], bool),
             normal=np.zeros(shape),
-            walls=np.zeros(shape),
             sticks=np.zeros(shape),
             **{name: np.zeros(shape[1]) for name in numbers},
         )
         for one in self._crossings(ghost_types):
-            rules.walls[one.axis, one.types] = self.number_of(one.face)
             if self.flow_kind(one.face) in WALLS:
                 rules.sticks[one.axis, one.types] = 1.0
             if self.flow_kind(one.face) in FREE:
@@ -195,8 +191,8 @@ class FaceConditions:
         return rules
 
     def force_shares(self, ghost_types: GhostTypes) -> dict[str, Array]:
-        """Shares (d, w) that faces have of each component of a force between a particle and a
-        ghost, by the type of that.
+        """Shares (d, d, w) that the lower and the upper face of each axis have of each component of
+        a force between a particle and a ghost, by the type of that.
 
         A component across one of the faces between is that face's, one along all of them is shared
         evenly. Planes of symmetry have a share only where no other face lies between: beyond both
@@ -213,14 +209,17 @@ class FaceConditions:
         ]
         # evenly, then each component across a face to that face alone
         number = np.maximum(np.sum([types for _, types in counted], axis=0), 1)
-        shape = ghost_types.sign.shape
-        shares = {face: np.zeros(shape) for pair in self.faces for face in pair}
+        axes, size = ghost_types.sign.shape
+        lower, upper = np.zeros((axes, axes, size)), np.zeros((axes, axes, size))
         for one, types in counted:
-            shares[one.face][:, types] = 1.0 / number[types]
+            mine = lower if one.outward < 0.0 else upper
+            mine[one.axis][:, types] = 1.0 / number[types]
         for one, types in counted:
-            for face, share in shares.items():
-                share[one.axis, types] = float(face == one.face)
-        return shares
+            for shares in (lower, upper):
+                shares[:, one.axis, types] = 0.0
+            mine = lower if one.outward < 0.0 else upper
+            mine[one.axis, one.axis, types] = 1.0
+        return {"lower": lower, "upper": upper}
 
     def _set_heat(self, rules: GhostRules, crossing: Crossing) -> None:
         """Let the heat condition of a face hold for the types of ghosts beyond it.

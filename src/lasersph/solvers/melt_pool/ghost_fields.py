@@ -104,11 +104,6 @@ def ghost_walls(ghost_type, dirichlet, flux, plane, T_w, P_w, wall_enthalpy, nor
     )
 
 
-def ghost_faces(ghost_type, wall, heat_face):
-    """Face across each axis beyond which a ghost lies, and that across which heat flows."""
-    return 1.0 * wall[ghost_type], heat_face[ghost_type]
-
-
 def tangent_plane(
     source,
     ghost_type,

@@ -18,9 +18,9 @@ from lasersph.solvers.conduction.implicit import ImplicitStep
 from lasersph.solvers.conduction.solver import Conduction
 from lasersph.solvers.conduction.state import HeatState
 from lasersph.solvers.melt_pool.block import Block
-from lasersph.solvers.melt_pool.block_exchange import exchange_of
 from lasersph.solvers.melt_pool.block_terms import either
 from lasersph.solvers.melt_pool.domain import PoolDomain
+from lasersph.solvers.melt_pool.face_exchange import FaceExchange
 from lasersph.solvers.melt_pool.flow import Flow
 from lasersph.solvers.melt_pool.flow_terms import advect, move
 from lasersph.solvers.melt_pool.heat_pairs import HeatPairs
@@ -81,7 +81,10 @@ class MeltPool:
         # faces book heat at the potential that the implicit step ends with
         scheme = heat.scheme
         potential = scheme.P if domain.is_box and isinstance(scheme, ImplicitStep) else None
-        self.exchange = exchange_of(backend, count, potential, domain.conditions, domain.surface)
+        books = domain.surface.pressure_gradient.is_symmetric
+        self.exchange = FaceExchange(
+            *(backend, count, potential, domain.conditions), books_pressing=books
+        )
         # between pulses: new lattice, time jump; and the test of a steady flow
         self.layout_renewal = LayoutRenewal(heat.body, domain, self.kinds, self.pairs)
         self.pauses: Pauses | None = None

@@ -1,28 +1,13 @@
-"""Momentum that the faces of a block exchange: shares and pairs by hand, and what must balance."""
+"""Momentum that the faces of a block exchange: shares by hand, and what must balance."""
 
 import numpy as np
 import pytest
 from flow_boxes import block_of, box, go, place_of
 
 from lasersph.particles.ghosts import LOWER, UPPER
-from lasersph.solvers.melt_pool.block_exchange import (
-    all_components,
-    axis_of,
-    components_across,
-    outward_sign,
-    pressure_force,
-    viscous_force,
-)
 
-FACES = ("left", "right", "front", "back", "bottom", "surface")
 ENDS = {"x": ("left", "right"), "y": ("front", "back"), "z": ("bottom", "surface")}
 SPACE = {"dimensions": 3, "shifting": 0.0, "viscosity": "explicit", "pressure_tolerance": 1e-12}
-
-
-def test_faces_have_an_axis_and_a_side():
-    """Across x, y and z in pairs, outward at the upper end."""
-    assert [axis_of(face) for face in FACES] == [0, 0, 1, 1, 2, 2]
-    assert [outward_sign(face) for face in FACES] == [-1.0, 1.0] * 3
 
 
 def shares_of(solver, **crossed):
@@ -34,11 +19,12 @@ def shares_of(solver, **crossed):
     found = (types.crossed == ends[:, None]).all(axis=0) & (types.crosses_surface == 0.0)
     (number,) = np.flatnonzero(found)
     shares = conditions.force_shares(types)
-    return {
-        face: values[:, number].tolist()
-        for face, values in shares.items()
-        if any(values[:, number])
+    found = {
+        face: shares[end][axis, :, number].tolist()
+        for axis, faces in enumerate(ENDS.values())
+        for end, face in zip(("lower", "upper"), faces, strict=True)
     }
+    return {face: values for face, values in found.items() if any(values)}
 
 
 def test_shares_of_walls_and_planes_by_hand():
@@ -56,26 +42,6 @@ def test_shares_of_walls_and_planes_by_hand():
     assert corner == {"right": [1.0, 0.0, 0.0], "back": [0.0, 1.0, 0.0], "bottom": [0.0, 0.0, 1.0]}
     assert shares_of(solver, x=LOWER) == {"left": [1.0, 1.0, 1.0]}
     assert shares_of(solver, x=LOWER, z=LOWER) == {"bottom": [1.0, 1.0, 1.0]}
-
-
-def tables(**shares):
-    """Shares of all faces of the types 0, which is no ghost, and 1."""
-    none = np.zeros(3)
-    return {face: np.array([none, shares.get(face, none)]) for face in FACES}
-
-
-def test_forces_of_a_pair_by_hand():
-    """g (v_j - v_i) and (p_i + p_j) G on the faces of the type, nothing of a pair of particles."""
-    shares = tables(back=np.array([0.5, 1.0, 0.0]), bottom=np.array([0.5, 0.0, 1.0]))
-    v = {"g_ij": 0.5, "v_i": np.array([1.0, 2.0, 3.0]), "v_j": np.array([5.0, 8.0, 11.0])}
-    found = all_components(*viscous_force(**v, ghost_type_j=1, **shares))
-    assert found[9:12] == (1.0, 3.0, 0.0) and found[12:15] == (1.0, 0.0, 4.0)
-    assert not any(found[:9]) and not any(found[15:])
-    assert not any(all_components(*viscous_force(**v, ghost_type_j=0, **shares)))
-    one, G = np.eye(3), np.array([7.0, 0.5, -0.25])
-    p = {"p_i": 3.0, "p_j": 5.0, "C_i": one, "C_j": one, "G_ij": G}
-    shared = pressure_force(**p, ghost_type_j=1, **shares)
-    assert components_across(*shared, V=2.0) == (0.0, 0.0, 0.0, 8.0, -4.0, 0.0)
 
 
 def total_force(exchange):

@@ -1,4 +1,4 @@
-"""Heat and momentum that faces exchange: three particles by hand, slabs, and what must balance."""
+"""Heat and momentum that faces exchange: pairs by hand, slabs, and what must balance."""
 
 import numpy as np
 import pytest
@@ -6,13 +6,11 @@ from flow_boxes import block_of, box, go, jittered, start_from
 
 from lasersph.solvers.melt_pool.face_exchange import (
     FaceExchange,
-    force_across,
-    heat_of_row,
-    heat_terms,
-    of_face,
-    outward,
-    pressure_terms,
-    viscous_terms,
+    force_of_row,
+    heat_of_pair,
+    heat_of_particle,
+    pressure_force,
+    viscous_force,
 )
 
 E_X = np.array([1.0, 0.0])
@@ -21,64 +19,66 @@ COLD = {"right": "fixed-temperature", "right_temperature": 290.0}
 CONDUCTIVITY, SPACING = 0.01, 0.1
 
 
-def test_sums_go_to_the_face_beyond_which_the_ghost_lies():
-    """1 left, 2 right, 3 bottom, 4 surface; 0 is no face."""
-    assert [of_face(5.0, float(k)) for k in range(5)] == [
-        (0.0, 0.0, 0.0, 0.0),
-        (5.0, 0.0, 0.0, 0.0),
-        (0.0, 5.0, 0.0, 0.0),
-        (0.0, 0.0, 5.0, 0.0),
-        (0.0, 0.0, 0.0, 5.0),
-    ]
-
-
 def test_heat_of_three_particles_by_hand():
     """A particle 1 before a face at x = 0 and its ghosts 1 and 3 beyond it, P_w - P_i = 7:
-    g (n_i + n_j) / n_i (P_w - P_i) = 0.5 * 2 * 7 + 0.25 * 4 * 7; with a flux 2 q g n_j."""
-    face = {
+    g (n_i + n_j) / n_i (P_w - P_i) = 0.5 * 2 * 7 + 0.25 * 4 * 7; with a flux 2 q g n_j; nothing of
+    another face."""
+    pair = {
         "P_w_j": 10.0,
         "T_w_j": 0.0,
         "normal_j": E_X,
         "plane_j": 0.0,
         "x_i": -E_X,
         "min_distance": 0.1,
+        "heat_face_j": 2.0,
     }
     ghosts = [{"g_ij": 0.5, "x_j": 1.0 * E_X}, {"g_ij": 0.25, "x_j": 3.0 * E_X}]
     for kinds, expected in (
-        ({"dirichlet_j": 1.0, "flux_j": 0.0, "heat_face_j": 2.0}, 14.0),
-        ({"dirichlet_j": 0.0, "flux_j": 4.0, "heat_face_j": 2.0}, 10.0),
+        ({"dirichlet_j": 1.0, "flux_j": 0.0}, 14.0),
+        ({"dirichlet_j": 0.0, "flux_j": 4.0}, 10.0),
     ):
-        sums = np.sum([heat_terms(**face, **kinds, **ghost) for ghost in ghosts], axis=0)
-        assert heat_of_row(3.0, *sums) == (0.0, expected, 0.0, 0.0)
+        for face, heat in ((2.0, expected), (1.0, 0.0)):
+            sums = np.sum([heat_of_pair(**pair, **kinds, **g, face=face) for g in ghosts], axis=0)
+            assert heat_of_particle(3.0, *sums) == heat
+
+
+def shares(**given):
+    """Shares of the lower and the upper face of each axis, of the types 0, no ghost, and 1."""
+    none = np.zeros((2, 2))
+    ends = {end: [none, np.array(given.get(end, none))] for end in ("lower", "upper")}
+    return {**ends, "ones": np.ones(2), "ghost_type_j": 1}
 
 
 def test_viscous_force_by_hand():
-    """g (v_j - v_i): along z and across x at a side, the other way around at the surface; in a
-    corner across both."""
-    v = {"g_ij": 0.5, "v_i": np.array([1.0, 2.0]), "v_j": np.array([5.0, 8.0])}
-    for walls, expected in (
-        ((1.0, 0.0), (3.0, 0.0, 0.0, 0.0, 2.0, 0.0, 0.0, 0.0)),
-        ((0.0, 4.0), (0.0, 0.0, 0.0, 2.0, 0.0, 0.0, 0.0, 3.0)),
-        ((2.0, 3.0), (0.0, 0.0, 0.0, 0.0, 0.0, 2.0, 3.0, 0.0)),
-        ((0.0, 0.0), (0.0,) * 8),
-    ):
-        assert viscous_terms(**v, wall_j=walls) == expected
+    """g (v_j - v_i) on the left, on the surface, and in a corner of both across each of them."""
+    pair = {"g_ij": 0.5, "v_i": np.array([1.0, 2.0]), "v_j": np.array([5.0, 8.0])}
+    left = viscous_force(**pair, **shares(lower=[[1.0, 1.0], [0.0, 0.0]]))
+    np.testing.assert_array_equal(left, [[[2.0, 3.0], [0.0, 0.0]], np.zeros((2, 2))])
+    surface = viscous_force(**pair, **shares(upper=[[0.0, 0.0], [1.0, 1.0]]))
+    np.testing.assert_array_equal(surface, [np.zeros((2, 2)), [[0.0, 0.0], [2.0, 3.0]]])
+    corner = {"lower": [[1.0, 0.0], [0.0, 0.0]], "upper": [[0.0, 0.0], [0.0, 1.0]]}
+    found = viscous_force(**pair, **shares(**corner))
+    np.testing.assert_array_equal(found, [[[2.0, 0.0], [0.0, 0.0]], [[0.0, 0.0], [0.0, 3.0]]])
+    assert not np.any(viscous_force(**pair, **shares(**corner) | {"ghost_type_j": 0}))
 
 
 def test_pressure_by_hand():
-    """V (p_i + p_j) G_ij across the face of a ghost with C = 1; out of the box it presses."""
+    """V (p_i + p_j) G_ij on the face of a ghost with C = 1."""
     one, G = np.eye(2), np.array([-0.5, 7.0])  # of a particle before its ghost on the left
     pair = {"p_i": 3.0, "p_j": 3.0, "C_i": one, "C_j": one, "G_ij": G}
-    shares = pressure_terms(**pair, wall_j=(1.0, 0.0))
-    assert shares == (42.0, 0.0, 0.0, 0.0, -3.0, 0.0, 0.0, 0.0)
-    assert outward(force_across(*shares, V=2.0)) == (6.0, 0.0, 0.0, 0.0)
-    assert outward((-1.0, 1.0, -2.0, 2.0)) == (1.0, 1.0, 2.0, 2.0)
+    terms = pressure_force(**pair, **shares(lower=[[1.0, 1.0], [0.0, 0.0]]))
+    lower, upper = force_of_row(*terms, V=2.0)
+    np.testing.assert_array_equal(lower, [[-6.0, 84.0], [0.0, 0.0]])
+    assert not np.any(upper)
 
 
 def exchange_of(solver):
     """An exchange with the faces in which nothing is booked yet."""
     potential = solver.particles["potential"]
-    return FaceExchange(solver.backend, solver.body.count, potential, books_pressing=True)
+    conditions = solver.domain.conditions
+    return FaceExchange(
+        solver.backend, solver.body.count, potential, conditions, books_pressing=True
+    )
 
 
 def linear(solver, place):
