@@ -80,9 +80,8 @@ $(VENV)/.%: pyproject.toml | $(VENV)/bin/python
 install = $(VENV)/bin/uv pip install --quiet --python $(VENV)/bin/python --editable $(1) 2>/dev/null \
 	  || $(PIP) install --quiet --no-compile --editable $(1)
 
-# Tests run in one process more than there are cores, as some wait for programs that they start; in
-# four at most, since each imports everything.
-WORKERS := -n $(shell $(PYTHON) -c 'import os; print(min(4, 1 + (os.cpu_count() or 1)))') --dist worksteal
+# Tests run in as many processes as there are cores; in four at most, since each imports everything.
+WORKERS := -n logical --maxprocesses 4 --dist worksteal
 # Tests start hundreds of programs, which find what the first of them has translated to bytecode.
 unexport PYTHONDONTWRITEBYTECODE
 comma := ,

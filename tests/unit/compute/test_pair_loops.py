@@ -100,23 +100,6 @@ def test_finish_and_reduce(backend):
     assert largest == (3.5,)
 
 
-def along_and_squared(x_ij, T_j):
-    return T_j * x_ij, outer(x_ij, T_j * x_ij)
-
-
-def test_vectors_and_tensors_are_reduced_by_component(backend):
-    """x_ij is -1, 1, -1, 1 along x; T_j of the neighbors 2, 1, 5, 2. Sums row by row."""
-    fields = {"T": backend.asarray([1.0, 2, 5])}
-    neighbors = three(backend, 2)
-    found = backend.pair_sum(
-        along_and_squared, neighbors, fields, (None, None), reduce=("sum", "max")
-    )
-    along = [-2.0, 1.0 - 5.0, 2.0]
-    assert found == (sum(along), 0.0, 6.0, 0.0, 0.0, 0.0)
-    with pytest.raises(ValueError, match="reduce has 1 entries for 2 results"):
-        backend.pair_sum(along_and_squared, neighbors, fields, (None, None), reduce=("sum",))
-
-
 def values_beside(T_j, x_ij):
     return T_j, T_j, T_j, x_ij
 

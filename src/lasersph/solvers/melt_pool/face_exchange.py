@@ -43,7 +43,7 @@ from lasersph.solvers.melt_pool.flow import Flow
 from lasersph.sph.correction import corrected_symmetric_term
 
 OUTWARD = (-1.0, 1.0)
-"""Sign of the outward normal at the lower and at the upper end of an axis."""
+"""Sign of the outward normal at an end of an axis. Format: 0 is its lower end, 1 its upper one."""
 
 
 def heat_of_pair(
