@@ -20,7 +20,7 @@ run: $(VENV)/.run
 	@echo "Open $(OUT)/report.html in a browser. Start anew: rm -r $(OUT)"
 
 test: $(VENV)/.test
-	@echo "Tests take 20 minutes with 2 cores, as these are."
+	@echo "Tests take 15 minutes with 2 cores, as these are."
 	@command -v chromium chromium-browser google-chrome google-chrome-stable >/dev/null || echo \
 	  "No Chromium: the tests of the page are skipped. On Debian: apt-get install chromium" >&2
 	$(VENV)/bin/python -m pytest $(WORKERS) $(PYTEST_ARGS)

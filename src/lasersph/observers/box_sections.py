@@ -11,7 +11,7 @@ along all walls: a clockwise eddy has psi < 0 (below a lid that moves to the rig
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -40,7 +40,7 @@ class Box:
         low = np.min(position - 0.5 * width, axis=1).tolist()
         high = np.max(position + 0.5 * width, axis=1).tolist()
         across = (low[1], high[1]) if len(low) == 3 else ()
-        return replace(cls(low[0], high[0], low[-1], high[-1], *across), mirror=mirror)
+        return cls(low[0], high[0], low[-1], high[-1], *across, mirror=mirror)
 
     @property
     def edges(self) -> list[float]:
@@ -62,10 +62,14 @@ class Box:
         """Along y [m]; 0 of a section."""
         return self.back - self.front
 
+    @property
+    def middle(self) -> float:
+        """y of the section of a block [m]."""
+        return {FRONT: self.front, BACK: self.back}.get(self.mirror, 0.5 * (self.front + self.back))
+
     def in_section(self, x: np.ndarray, z: np.ndarray) -> np.ndarray:
         """Points (d, m) of the section at some x and z (m,) [m]."""
-        middle = {FRONT: self.front, BACK: self.back}
-        y = np.full(x.shape, middle.get(self.mirror, 0.5 * (self.front + self.back)))
+        y = np.full(x.shape, self.middle)
         return np.stack([x, y, z] if self.breadth else [x, z])
 
     def with_images(
@@ -74,9 +78,8 @@ class Box:
         """Particles (d, n) [m], [m/s], and their images across the mirror."""
         if not self.mirror:
             return position, velocity
-        plane = {FRONT: self.front, BACK: self.back}[self.mirror]
         turned = np.array([[1.0], [-1.0], [1.0]])
-        images = turned * position + np.array([[0.0], [2.0 * plane], [0.0]])
+        images = turned * position + np.array([[0.0], [2.0 * self.middle], [0.0]])
         return np.hstack([position, images]), np.hstack([velocity, turned * velocity])
 
     def across(self, shares: np.ndarray) -> np.ndarray:

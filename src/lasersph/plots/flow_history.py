@@ -175,14 +175,15 @@ def lines_of(run: Run, shares: np.ndarray, number: int = -1) -> CenterLines:
         number: of the snapshot; the last if not given.
     """
     start, step = run.snapshots[0], run.snapshots[number]
-    box = Box.around(start["position"], start["width"], _mirror_of(run))
+    box = Box.around(start["position"], start["width"], mirror_of(run))
     return center_lines(step["position"], step["velocity"], box, shares)
 
 
-def _mirror_of(run: Run) -> str:
+def mirror_of(run: Run) -> str:
     """Front or back of a block where that alone of the two is a plane of symmetry."""
     flow = run.case.get("solver", {}).get("flow") or {}
-    kinds = {side: (flow.get(side) or {}).get("kind") for side in ("front", "back")}
+    sides = flow.get("sides") or {}
+    kinds = {side: (flow.get(side) or sides).get("kind") for side in ("front", "back")}
     planes = [side for side, kind in kinds.items() if kind == "symmetry"]
     return planes[0] if len(planes) == 1 else ""
 

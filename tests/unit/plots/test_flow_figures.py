@@ -2,6 +2,7 @@
 
 import re
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -10,6 +11,7 @@ import synthetic_run
 from synthetic_flow import FASTEST, LAYER
 from synthetic_run import NM, NS, PERIOD
 
+from lasersph.boundaries import FlowConditions
 from lasersph.observers.box_sections import Box
 from lasersph.output import OutputError, open_run
 from lasersph.plots import (
@@ -23,7 +25,7 @@ from lasersph.plots import (
     surface_speeds,
 )
 from lasersph.plots.flow_fields import plane_flow, raster
-from lasersph.plots.flow_history import center_line_figure, lines_of
+from lasersph.plots.flow_history import center_line_figure, lines_of, mirror_of
 from lasersph.plots.flow_map import are_beside, box_flow_map, pool_flow_map
 from lasersph.plots.particle_map import Cells
 
@@ -150,6 +152,24 @@ def test_phases_of_a_picture(pool):
     frame = Box(-10 * NM, 10 * NM, -1500 * NM, 0.0)
     column = raster(flow, frame, (60, 1)).phase()[::-1, 0]
     assert list(dict.fromkeys(column)) == [3.0, 2.0, 1.0, 0.0]
+
+
+@pytest.mark.parametrize(
+    "flow, mirror",
+    [
+        ({}, ""),
+        ({"front": "symmetry"}, "front"),
+        ({"sides": "symmetry"}, ""),
+        ({"sides": "symmetry", "front": "no-slip"}, "back"),
+    ],
+)
+def test_center_lines_lie_where_the_observer_has_them(flow, mirror):
+    """In front or back of the resolved case, where the conditions of its flow say so."""
+    conditions = FlowConditions.model_validate(flow)
+    assert conditions.mirror == mirror
+    resolved = {"solver": {"flow": conditions.model_dump()}}
+    assert mirror_of(SimpleNamespace(case=resolved)) == mirror
+    assert mirror_of(SimpleNamespace(case={})) == ""
 
 
 def test_center_lines_of_the_last_snapshot(box):
