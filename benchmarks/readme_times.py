@@ -47,12 +47,20 @@ def lasersph(arguments: list[str]) -> tuple[float, int]:
     return perf_counter() - begin, 1024 * usage.ru_maxrss
 
 
+def overrides(settings: list[str]) -> list[str]:
+    """Arguments of the command line for settings of a case."""
+    return [part for setting in settings for part in ("--set", setting)]
+
+
 def measure(row: dict) -> dict:
     """The row with what its run took, when, at which commit and on which machine; the particles
     are those of all runs of a row that has several."""
-    command = [row["case"]] + [part for s in row["set"] for part in ("--set", s)]
+    command = [row["case"], *overrides(row["set"])]
+    # loops of a coarse copy, whose spacing is not that of the row
+    coarse = [s for s in row["set"] if not s.startswith("particles.spacing")]
     with tempfile.TemporaryDirectory() as folder:
-        lasersph(["run", *command, "--quick", "--out", f"{folder}/quick"])
+        quick = ["run", row["case"], *overrides(coarse), "--quick"]
+        lasersph([*quick, "--out", f"{folder}/quick"])
         verb, *options = row.get("verb", ["run"])
         seconds, memory = lasersph([verb, *command, *options, "--out", f"{folder}/run"])
         files = [
