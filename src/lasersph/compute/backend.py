@@ -23,6 +23,7 @@ _KINDS = {
     "index": np.dtype(np.uint32),
     "offset": np.dtype(np.uint64),
     "flag": np.dtype(np.uint8),
+    "single": np.dtype(np.float32),
 }
 
 
@@ -54,11 +55,11 @@ class Backend:
     # --- arrays ---------------------------------------------------------------------------------
 
     def kind(self, kind: str) -> np.dtype:
-        """NumPy type of a kind: "real", "index" uint32, "offset" uint64, "flag" uint8."""
+        """NumPy type of a kind: "real", "index" uint32, "offset" uint64, "flag" uint8, "single"."""
         if kind == "real":
             return self.real
         if kind not in _KINDS:
-            raise ValueError(f"kind must be real, index, offset or flag, not {kind!r}")
+            raise ValueError(f"kind must be real, index, offset, flag or single, not {kind!r}")
         return _KINDS[kind]
 
     def wrap(self, array: np.ndarray) -> Array:
@@ -120,18 +121,18 @@ class Backend:
     def wait(self) -> None:
         """Return when everything that was started is done, as it is here."""
 
-    def single(self, array: Array, into: Array | None = None) -> Array:
-        """Copy in float32, which loops of any precision may read per pair; itself if it is.
+    def single(self, array: Array, into: Callable[[int], Array] | None = None) -> Array:
+        """Copy (n,) in float32, which loops of any precision may read per pair; itself if it is.
 
         Args:
-            into: an earlier copy, which is written where it has the same shape.
+            into: gives an array of so many, kind "single", which may hold an earlier copy.
         """
         if array.dtype == np.float32:
             return array
-        if into is None or into.shape != array.shape:
-            into = self.empty(array.shape, np.float32)
-        self.copy(array, into)
-        return into
+        count = array.shape[0]
+        copy = self.empty(count, np.float32) if into is None else into(count)
+        self.copy(array, copy)
+        return copy
 
     def copy(self, source: Array, destination: Array) -> None:
         """Copy all elements of `source` into `destination` of the same shape."""

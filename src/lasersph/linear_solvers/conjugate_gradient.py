@@ -17,12 +17,14 @@ Reference: [Saad2003], Algorithm 9.1.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import partial
 
 from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
 from lasersph.compute.graph import graph
+from lasersph.compute.kept_array import KeptArray
 from lasersph.compute.sweeps import ordered_pairs
 from lasersph.linear_solvers.incomplete_factors import IncompleteFactors
 from lasersph.linear_solvers.iteration import conjugate_gradients
@@ -119,6 +121,7 @@ class ConjugateGradient:
         self.backend, self.operator, self.rounds = backend, operator, rounds
         self._used = replace(operator, weights=None)
         self._bound: tuple = ()
+        self._rounded = KeptArray(backend, kind="single")
         self._v = {name: backend.zeros(count) for name in VECTORS}
         self.solution, self.residual = self._v["x"], 0.0
         self._multigrid: Multigrid | None = None
@@ -221,7 +224,8 @@ class ConjugateGradient:
         if not self._given:
             return self.factors
         if self.factors is None:
-            pairs = ordered_pairs(self.backend, self.operator.neighbors, self._weights(None))
+            weights = self._as_read(self.operator.weights)
+            pairs = ordered_pairs(self.backend, self.operator.neighbors, weights)
             if pairs is None:
                 self._given = ()
             else:
@@ -229,9 +233,8 @@ class ConjugateGradient:
                 self.factors = IncompleteFactors(self.backend, pairs, self._v, count)
         return self.factors
 
-    def _weights(self, into: Array | None) -> Array:
-        """Weights as they are read; rounded ones in the place of earlier ones."""
-        weights = self.operator.weights
+    def _as_read(self, weights: Array, into: Callable[[int], Array] | None = None) -> Array:
+        """Weights as they are read; rounded ones in an array that is kept, if one is given."""
         return self.backend.single(weights, into) if self.rounds else weights
 
     def _take_pairs(self) -> None:
@@ -240,10 +243,8 @@ class ConjugateGradient:
         now = (operator.neighbors, operator.weights)
         if not are_same(now, self._bound):
             self._bound = now
-            used.neighbors, used.weights = used.first = (
-                operator.neighbors,
-                self._weights(used.weights),
-            )
+            weights = self._as_read(operator.weights, self._rounded.of)
+            used.neighbors, used.weights = used.first = operator.neighbors, weights
 
     def _prepared(self, C: Array, mask: Array, s: float) -> Multigrid | None:
         """Multigrid for this matrix; levels are built when first needed, from the first pairs,

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from lasersph import compute
+from lasersph.compute.kept_array import KeptArray
 
 
 @pytest.fixture
@@ -67,8 +68,9 @@ def test_arrays(backend):
     host = backend.to_host(a)
     host[:] = 0.0
     assert backend.to_host(a)[0, 0] == 1.0
-    kinds = {kind: backend.zeros(1, kind).dtype for kind in ("index", "offset", "flag")}
-    assert kinds == {"index": np.uint32, "offset": np.uint64, "flag": np.uint8}
+    kinds = {kind: backend.zeros(1, kind).dtype for kind in ("index", "offset", "flag", "single")}
+    expected = {"index": np.uint32, "offset": np.uint64, "flag": np.uint8, "single": np.float32}
+    assert kinds == expected
     with pytest.raises(ValueError, match="kind must be"):
         backend.zeros(1, "double")
     with pytest.raises(ValueError, match="copy of shape"):
@@ -102,10 +104,29 @@ def test_components(backend):
 
 
 def test_single_precision_copies(backend):
-    """A copy is written anew where it has as many elements."""
+    """A copy is an array of its own, or lies in one that is kept."""
     first = backend.single(backend.asarray([0.1, 0.2]))
-    again = backend.single(backend.asarray([0.3, 0.4]), first)
-    assert again is first and first.dtype == np.float32
-    assert backend.to_host(first).tolist() == np.float32([0.3, 0.4]).tolist()
-    other = backend.single(backend.asarray([0.5]), first)
-    assert other is not first and backend.single(other) is other
+    assert first.dtype == np.float32 and backend.single(first) is first
+    assert backend.to_host(first).tolist() == np.float32([0.1, 0.2]).tolist()
+    kept = KeptArray(backend, kind="single")
+    copy = backend.single(backend.asarray([0.3, 0.4]), kept.of)
+    assert backend.single(backend.asarray([0.5, 0.6]), kept.of) is copy
+    assert backend.to_host(copy).tolist() == np.float32([0.5, 0.6]).tolist()
+
+
+def test_kept_arrays(backend):
+    """The same array for the same length, the same memory for lengths that it has room for."""
+    kept = KeptArray(backend, 2)
+    array = kept.of(3)
+    assert array.shape == (2, 3) and kept.of(3) is array
+    backend.copy(backend.asarray([[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]), array)
+
+    # longer and shorter, within room for twice as many
+    longer = kept.of(5)
+    assert longer is not array
+    assert backend.to_host(longer).tolist() == [[1, 2, 3, 0, 0], [4, 5, 6, 0, 0]]
+    backend.fill(longer, 7.0)
+    assert backend.to_host(kept.of(2)).tolist() == [[7, 7], [7, 7]]
+
+    # beyond that it begins with zeros
+    assert backend.to_host(kept.of(7)).tolist() == [[0] * 7] * 2

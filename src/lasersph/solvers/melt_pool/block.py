@@ -194,11 +194,10 @@ class Block:
         )
 
         # kernels and weights of the pairs
-        geometry, neighbor = self._geometry, self.pairs.neighbor
+        geometry = self._geometry
         geometry.set_pairs(self.pairs, has_row, layers.reach.plane)
         self.weights, self.gradient, self.kernel = geometry.arrays
-        if self._folded.shape != neighbor.shape:
-            self._folded = backend.zeros(neighbor.shape[0], "index")
+        self._folded = geometry.per_pair("folded", "index")
         self.find_geometry(has_kernel=has_kernel)
         self._adapt_weights(position)
         # viscosity may weigh the pairs anew

@@ -10,6 +10,7 @@ from dataclasses import replace
 
 from lasersph.compute.array_types import Array, Rows
 from lasersph.compute.backend import Backend
+from lasersph.compute.kept_array import KeptArray
 from lasersph.compute.vectors import dot
 from lasersph.particles.neighbor_lists import Mean, NeighborList
 from lasersph.particles.support import common
@@ -70,22 +71,21 @@ class PairGeometry:
     """
 
     def __init__(self, backend: Backend, weighing: Weighing, dimension: int) -> None:
-        self.backend, self.weighing, self.dimension = backend, weighing, dimension
-        self.arrays = self._zeros(0)
-        self._others: dict[str, Array] = {}
+        self.backend, self.weighing = backend, weighing
+        self._kept = KeptArray(backend), KeptArray(backend, dimension), KeptArray(backend)
+        self._others: dict[str, KeptArray] = {}
         self._rows: list[tuple[Mean, Rows | None]] = []
+        self._set_count(0)
 
-    def _zeros(self, count: int) -> tuple[Array, Array, Array]:
-        """Arrays of as many pairs."""
-        zeros = self.backend.zeros
-        return zeros(count), zeros((self.dimension, count)), zeros(count)
+    def _set_count(self, count: int) -> None:
+        """Take arrays of as many pairs."""
+        g, G, W = self._kept
+        self.arrays = g.of(count), G.of(count), W.of(count)
 
-    def per_pair(self, name: str) -> Array:
-        """(pairs,) an array that is kept under a name while lists have as much room."""
-        count, kept = self.arrays[0].shape[0], self._others.get(name)
-        if kept is None or kept.shape[0] != count:
-            kept = self._others[name] = self.backend.zeros(count)
-        return kept
+    def per_pair(self, name: str, kind: str = "real") -> Array:
+        """(pairs,) an array that is kept under a name while lists have as many."""
+        kept = self._others.setdefault(name, KeptArray(self.backend, kind=kind))
+        return kept.of(self.arrays[0].shape[0])
 
     def set_pairs(self, pairs: NeighborList, has_row: Array | None, even_above: float) -> None:
         """Take a new list.
@@ -98,8 +98,7 @@ class PairGeometry:
             has_row: (n,) 1 for rows that are found; None for all. even_above: z of the plane [m].
         """
         backend, count = self.backend, pairs.neighbor.shape[0]
-        if self.arrays[0].shape[0] != count:
-            self.arrays = self._zeros(count)
+        self._set_count(count)
         # one support for all rows, or those with it apart
         self._rows = [(common, None)]
         if pairs.mean is common:

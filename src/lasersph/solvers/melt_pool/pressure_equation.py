@@ -33,6 +33,7 @@ from functools import partial
 from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
 from lasersph.compute.graph import graph
+from lasersph.compute.kept_array import KeptArray
 from lasersph.linear_solvers.components import Components
 from lasersph.linear_solvers.grid_correction import GridCorrection
 from lasersph.linear_solvers.iteration import conjugate_gradients
@@ -134,7 +135,7 @@ class PressureEquation:
         self.backend, self.tolerance, self.max_iterations = backend, tolerance, max_iterations
         self.components = Components(backend, count, support, period)
         self._correction = GridCorrection(backend, count, support, period)
-        self._nothing, self._inner = backend.zeros(count), backend.zeros(0)
+        self._nothing, self._inner = backend.zeros(count), KeptArray(backend)
         self._is_even, self._volume = is_even, self._nothing
         # diagonal and right-hand side, residual r, z = M^-1 r, direction s and A s
         self._d, self._b = backend.zeros(count), backend.zeros(count)
@@ -144,7 +145,7 @@ class PressureEquation:
         self._neighbors = NeighborList(
             backend.zeros(count + 1, "offset"), backend.zeros(0, "index")
         )
-        self._weights, self._coefficient = self._inner, self._nothing
+        self._weights, self._coefficient = self._inner.of(0), self._nothing
 
     def set_operator(
         self,
@@ -161,7 +162,7 @@ class PressureEquation:
             mask: (n,) 1 for unknown pressures, else 0. volume: (n,) V_i [m^2].
             coefficient: (n,) a_i >= 0; None for no boundary with a given pressure.
         """
-        backend, components = self.backend, self.components
+        components = self.components
         self._neighbors, self._weights, self._volume = neighbors, weights, volume
         self._coefficient = self._nothing if coefficient is None else coefficient
         position = neighbors.position
@@ -169,9 +170,7 @@ class PressureEquation:
         # pools that do not touch have a pressure each: weights between them count for nothing
         components.find(position, mask, self._coefficient)
         if components.count > 1:
-            if self._inner.shape[0] != weights.shape[0]:
-                self._inner = backend.zeros(weights.shape[0])
-            self._weights = self._inner
+            self._weights = self._inner.of(weights.shape[0])
         # diagonal, and the preconditioner of the present particles
         self.sum_weights(weights)
         self._correction.prepare(position, components.mask, volume, self._coefficient)
@@ -226,7 +225,7 @@ class PressureEquation:
         backend.pair_sum(inner, neighbors, fields, self._d, finish=total_weight)
         # the weights themselves, only where components have to be kept apart
         if self._weights is not weights:
-            backend.pair_values(inner, neighbors, fields, self._inner)
+            backend.pair_values(inner, neighbors, fields, self._weights)
 
     @graph
     def find_first_residual(self, b: Array, p: Array, p_b: Array, f: Array) -> None:

@@ -21,6 +21,7 @@ from __future__ import annotations
 
 from lasersph.compute.array_types import Array, Constants
 from lasersph.compute.graph import graph
+from lasersph.compute.kept_array import KeptArray
 from lasersph.compute.vectors import dot, matmul, matvec, outer, transpose, vector
 from lasersph.particles.particles import Particles
 from lasersph.solvers.melt_pool.block import Block
@@ -140,7 +141,8 @@ class Transport:
     def __init__(self, particles: Particles, volume: Array) -> None:
         self.backend, self.volume = particles.backend, volume
         self.h, self.v = particles["enthalpy"], particles["velocity"]
-        self.flux = self.backend.zeros(0)
+        self._kept = KeptArray(self.backend)
+        self.flux = self._kept.of(0)
         self._block: RingBlock | RingTangentBlock | None = None
         self._passing = self.backend.zeros(self.v.shape)
 
@@ -178,8 +180,7 @@ class Transport:
             )
             self._gathered, self._phi = backend.zeros(count), backend.zeros(count)
             self._grad_h, self._grad_v = backend.zeros((2, count)), backend.zeros((2, 2, count))
-        if self.flux.shape != block.weights.shape:
-            self.flux = backend.zeros(block.weights.shape[0])
+        self.flux = self._kept.of(block.weights.shape[0])
 
     def _pair_fields(self, block: Block, v: Array) -> dict[str, Array]:
         """Values of particles and their images that a flux follows from."""

@@ -43,7 +43,18 @@ def surface_of(
         support: of the finest particles [m].
     """
     if case.surface_moves:
-        return _moving_surface(case, settings, layers, liquid, support, backend, count)
+        kind = RidingSurface if case.geometry.is_axisymmetric else MovingSurface
+        return kind(
+            backend,
+            count,
+            line=surface_line(case, layers),
+            bottom=-layers.fine_depth,
+            spacing=layers.spacing,
+            support=support,
+            liquid=_surface_liquid(case, liquid),
+            has_stress=settings.marangoni,
+            forcing=_forcing(case),
+        )
     if face_conditions(case, layers).flow_kind("surface") not in FREE:
         return Surface(backend, count, 0.0, layers.dimension)
     is_section = case.geometry.is_axisymmetric
@@ -62,39 +73,25 @@ def surface_of(
     )
 
 
-def _moving_surface(
-    case: Case,
-    settings: MeltPoolSettings,
-    layers: Layers,
-    liquid: Liquid,
-    support: float,
-    backend: Backend,
-    count: int,
-) -> MovingSurface:
-    """Columns that move and what is imposed on them, see `surface_of`."""
-    kind = RidingSurface if case.geometry.is_axisymmetric else MovingSurface
+def _surface_liquid(case: Case, liquid: Liquid) -> SurfaceLiquid:
+    """The melt that a moving surface bounds."""
+    return SurfaceLiquid(
+        liquid.density,
+        case.material.density_reference,
+        liquid.viscosity * liquid.density,
+        liquid.relative_viscosity,
+        case.material,
+    )
+
+
+def _forcing(case: Case) -> SurfaceForcing:
+    """Temperature, pressure, mass flux and recoil that are imposed on a moving surface."""
     boundaries = case.boundaries
-    return kind(
-        backend,
-        count,
-        line=surface_line(case, layers),
-        bottom=-layers.fine_depth,
-        spacing=layers.spacing,
-        support=support,
-        liquid=SurfaceLiquid(
-            liquid.density,
-            case.material.density_reference,
-            liquid.viscosity * liquid.density,
-            liquid.relative_viscosity,
-            case.material,
-        ),
-        has_stress=settings.marangoni,
-        forcing=SurfaceForcing(
-            _given_temperature(case),
-            boundaries.pressure_drive,
-            boundaries.surface_mass_flux_wave,
-            recoil_of(case),
-        ),
+    return SurfaceForcing(
+        _given_temperature(case),
+        boundaries.pressure_drive,
+        boundaries.surface_mass_flux_wave,
+        recoil_of(case),
     )
 
 
