@@ -21,9 +21,9 @@ import numpy as np
 
 from lasersph import load_case, open_run, run
 from lasersph.physics import flow_limits
+from lasersph.simulation.recipes.melt_pool import surfaces
 from lasersph.solvers.step_control import StepFailed
 from lasersph.surface.pressure_gradient import DifferenceGradient, SymmetricGradient
-from lasersph.surface.surface import Surface
 from lasersph.validation.dam_break.rows import front_of
 from lasersph.validation.lid_driven_cavity.center_lines import center_line
 from lasersph.validation.lid_driven_cavity.rows import deviation, lines_of
@@ -46,7 +46,7 @@ CUBES = (
     *((count, 0.04, "differences") for count in (24, 48)),
 )
 """Particles a period, factor of the shifting, and gradient of the pressure."""
-GRADIENTS = {"symmetric": SymmetricGradient(), "differences": DifferenceGradient()}
+GRADIENTS = {"symmetric": SymmetricGradient, "differences": DifferenceGradient}
 EXACT = ((1.0, 0.8835378), (2.0, 0.7645278))
 """Time [s], and energy over that of the start: `validation/vortices_in_space/reference.csv`."""
 SPEEDS = ("flow_surface_speed_max_m_s", "flow_surface_speed_mean_m_s",
@@ -88,7 +88,7 @@ def vortices(folder: Path, viscosity: float, advection: float) -> str:
 
 def vortices_in_a_cube(folder: Path, count: int, shifting: float, gradient: str) -> str:
     """Energy after 1 and 2 s over the exact one, less one, in %."""
-    Surface.pressure_gradient = GRADIENTS[gradient]
+    surfaces.DifferenceGradient = GRADIENTS[gradient]
     run(load_case("lid-driven-cube", cube_of(50, count, shifting, 2.0)), folder, threads=1)
     found = open_run(folder)
     return "  ".join(f"{100.0 * (energy_share(found, t) / E - 1.0):.2f} %" for t, E in EXACT)

@@ -12,7 +12,6 @@ from lasersph.validation.dlip_thermal.finite_volumes import Columns
 
 NOT_MET: dict[str, set[str]] = {
     "measured-spots": {"depth"},
-    "vortices-in-space": {"energy"},
     "two-temperature": {"skin", "explosion", "film", "damage"},
 }
 """Kinds of rows that shortened forms do not meet, by validation; the page says why."""

@@ -134,8 +134,7 @@ class FlatSurface(Surface):
         given: ImposedTemperature | None,
         pressure_gradient: SymmetricGradient,
     ) -> None:
-        super().__init__(backend, count, plane, dimension)
-        self.pressure_gradient = pressure_gradient
+        super().__init__(backend, count, plane, dimension, pressure_gradient=pressure_gradient)
         self.viscosity = viscosity
         self.given = given
         self.has_stress = has_stress

@@ -6,7 +6,10 @@ below 0, since the symmetric gradient of p < 0 contracts the particles [Monaghan
 
 Below a surface that moves the pressure is given, and the gradient is that of its differences, exact
 on linear fields: the symmetric one pushes where the kernel sums of neighbors differ. It is not
-adjoint to the divergence.
+adjoint to the divergence. Nor are the forces of two particles on each other opposite: momentum does
+not stay to rounding along a period, and no force on a wall can be told from it. Where all faces are
+planes of symmetry there is neither, and vortices lose a third of the energy that the symmetric one
+takes from them.
 """
 
 from __future__ import annotations
@@ -76,7 +79,7 @@ class SymmetricGradient:
 
 
 class DifferenceGradient(SymmetricGradient):
-    """Gradient of a pressure that is given at the surface."""
+    """Gradient of differences, which a constant of the pressure does not change."""
 
     is_symmetric = False
 
@@ -86,7 +89,7 @@ class DifferenceGradient(SymmetricGradient):
         return correction.corrected_difference_term
 
     def find_lowest(self, backend: Backend, p: Array, rows: Rows) -> None:
-        """Nothing to reduce: its constant is given."""
+        """Nothing to reduce: the gradient sees the pressure as it is."""
 
     def extend(self, backend: Backend, ghosts: GhostPressure, p: Array, lowest: float) -> Array:
         """Pressure carried on through that of the surface."""

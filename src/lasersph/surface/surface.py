@@ -136,6 +136,7 @@ class Surface:
 
     Args:
         count: particles of the whole body. top: z of the plane [m]. dimension: d.
+        pressure_gradient: below it; None for that of the class.
 
     Attributes:
         normal: unit vector, outward. crossing: MIRROR or TANGENT, how ghosts lie beyond it.
@@ -163,8 +164,11 @@ class Surface:
         top: float,
         dimension: int = 2,
         min_distance: float = MIN_PLANE_DISTANCE,
+        pressure_gradient: SymmetricGradient | None = None,
     ) -> None:
         self.backend, self.top = backend, top
+        if pressure_gradient is not None:
+            self.pressure_gradient = pressure_gradient
         self.normal = upward(dimension)
         self.pressure = PressureCondition()
 

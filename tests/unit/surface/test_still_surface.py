@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from flow_boxes import box
+from flow_boxes import PERIODIC, PERIODIC_HEAT, box
 
 from lasersph import compute
 from lasersph.surface.pressure_gradient import DifferenceGradient, SymmetricGradient
@@ -26,6 +26,26 @@ def test_a_box_without_a_surface_asks_nothing_of_a_step():
     assert surface.state.kept == {} and surface.checkpoint_scalars() == {}
     assert not host(surface.at_surface).any() and not host(surface.velocity_jump).any()
     assert surface.length_ratio() is None
+
+
+SYMMETRIC = dict.fromkeys(PERIODIC, "symmetry")
+
+
+@pytest.mark.parametrize(
+    "flow, heat, kind",
+    [
+        (SYMMETRIC, {}, DifferenceGradient),
+        (PERIODIC, PERIODIC_HEAT, SymmetricGradient),
+        (SYMMETRIC | {"bottom": "free-slip"}, {}, SymmetricGradient),
+        (SYMMETRIC | {"surface": "no-slip"}, {}, SymmetricGradient),
+        (SYMMETRIC | {"surface": "free-surface"}, {}, SymmetricGradient),
+    ],
+)
+def test_gradient_of_a_box(flow, heat, kind):
+    """Of differences between planes of symmetry alone, where no force onto a wall is booked."""
+    solver = box(flow=flow, heat=heat, marangoni=False)
+    assert type(solver.domain.surface.pressure_gradient) is kind
+    assert solver.exchange.books_pressing == (kind is SymmetricGradient)
 
 
 def test_depth_below_the_top(backend):

@@ -145,6 +145,11 @@ class FaceConditions:
             return "no-slip"
         return "periodic" if self.boundaries.kind_of(face) == "periodic" else "symmetry"
 
+    @property
+    def are_mirrors(self) -> bool:
+        """Whether all faces are planes of symmetry."""
+        return all(self.flow_kind(face) == "symmetry" for pair in self.faces for face in pair)
+
     def number_of(self, face: str) -> float:
         """Number of a face in loops, from 1 in the order of `faces`; 0 is none."""
         return 1.0 + [name for pair in self.faces for name in pair].index(face)

@@ -20,9 +20,9 @@ exerts none. Across the face, n outward, it is that of the pressure and of the s
 
 Steps take p over the lowest one p_0; what that constant presses on a face of area A, in a section
 the length of it, is taken off, so that J is the impulse of the pressure that particles store, whose
-mean in a closed box is 0. Below a surface that moves the gradient is one of differences: its sum
-over ghosts is not what presses on a wall, since the forces of two particles on each other are not
-opposite. J is not booked there.
+mean in a closed box is 0. Below a surface that moves, and between planes of symmetry alone, the
+gradient is one of differences: its sum over ghosts is not what presses on a wall, since the forces
+of two particles on each other are not opposite. J is not booked there.
 """
 
 from __future__ import annotations

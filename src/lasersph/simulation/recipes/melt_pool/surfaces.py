@@ -55,8 +55,12 @@ def surface_of(
             has_stress=settings.marangoni,
             forcing=_forcing(case),
         )
-    if face_conditions(case, layers).flow_kind("surface") not in FREE:
-        return Surface(backend, count, 0.0, layers.dimension)
+    conditions, gradient = face_conditions(case, layers), SymmetricGradient()
+    if conditions.flow_kind("surface") not in FREE:
+        # no wall whose force is wanted, no axis along which momentum stays
+        if conditions.are_mirrors:
+            gradient = DifferenceGradient()
+        return Surface(backend, count, 0.0, layers.dimension, pressure_gradient=gradient)
     is_section = case.geometry.is_axisymmetric
     return FlatSurface(
         backend,
@@ -69,7 +73,7 @@ def surface_of(
         viscosity=liquid.viscosity * liquid.density,
         has_stress=settings.marangoni,
         given=_given_temperature(case),
-        pressure_gradient=DifferenceGradient() if is_section else SymmetricGradient(),
+        pressure_gradient=DifferenceGradient() if is_section else gradient,
     )
 
 

@@ -31,7 +31,7 @@ def flow_view(
     Args:
         numbers: of the liquid, see `numbers_of`. fetch: gets an array of the solver.
     """
-    flow, free, exchange = solver.flow, solver.domain.surface, solver.exchange
+    flow, exchange = solver.flow, solver.exchange
     liquid = flow.liquid
     position, velocity = fetch(solver.position), fetch(flow.velocity)
     pressure = fetch(flow.pressure)
@@ -68,7 +68,7 @@ def flow_view(
         ),
         wall_heat=dict(exchange.heat),
         wall_impulse=dict(exchange.impulse),
-        wall_pressing={} if free.moves else dict(exchange.pressing),
+        wall_pressing=dict(exchange.pressing) if exchange.books_pressing else {},
         full_step=solver.state.unclipped_step,
         **numbers,
     )
