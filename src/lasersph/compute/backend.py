@@ -26,6 +26,13 @@ _KINDS = {
     "single": np.dtype(np.float32),
 }
 
+MAPPED = 4 * 2**20
+"""Elements from which on memory is mapped for an array alone: in float64 the 32 MiB up to which the
+C library may take it from what was given back, and write it. Mapped memory is not taken before it
+is written."""
+GROWTH, MAPPED_GROWTH = 2, 8
+"""Guard: elements that there is memory for where an array may grow, over those that it has."""
+
 
 class Backend:
     """Loops on the processor with a fixed number of threads and one precision.
@@ -85,6 +92,10 @@ class Backend:
         array = self.wrap(recording.make(shape, self.kind(kind), self._undefined))
         self.fill(array, 0)
         return array
+
+    def capacity_for(self, count: int) -> int:
+        """Elements to have memory for where an array of so many may grow."""
+        return MAPPED_GROWTH * count if MAPPED_GROWTH * count >= MAPPED else GROWTH * count
 
     def empty(self, shape: int | tuple[int, ...], dtype: Any) -> Array:
         """Array with undefined elements."""

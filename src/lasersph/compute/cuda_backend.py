@@ -13,7 +13,7 @@ import numpy as np
 
 from lasersph.compute import cuda_device, cuda_kernels, cuda_memory
 from lasersph.compute.array_types import Array, Rows
-from lasersph.compute.backend import Backend
+from lasersph.compute.backend import GROWTH, Backend
 from lasersph.compute.cuda_array import CudaArray
 from lasersph.compute.cuda_device import THREADS
 from lasersph.compute.cuda_launch import CudaLauncher
@@ -92,6 +92,10 @@ class CudaBackend(Backend):
             twice, {"value": array}, (None, None), rows=rows, reduce=("min", "max")
         )
         return least, most
+
+    def capacity_for(self, count: int) -> int:
+        """Elements to have memory for where an array of so many may grow; it is taken at once."""
+        return count + count // GROWTH
 
     def empty(self, shape: int | tuple[int, ...], dtype: Any) -> CudaArray:
         """Array with undefined elements."""

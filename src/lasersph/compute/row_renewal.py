@@ -15,10 +15,12 @@ from lasersph.compute.array_function import array_function
 from lasersph.compute.array_types import Array, Rows
 from lasersph.compute.backend import Backend
 from lasersph.compute.generate import BLOCK
-from lasersph.compute.kept_array import RESERVE
 
 SPARE = 8
 """Forecast: a row is given room for one pair in so many more than it has."""
+RESERVE = 1
+"""Guard: pairs that there is room for behind those of the first list, over their number. Memory of
+the processor is not taken before it is written; a list that outgrows this is copied."""
 _TEXT = f'''
 ONE = np.uint64(1)
 BLOCK, SPARE = np.uint64({BLOCK}), np.uint64({SPARE})

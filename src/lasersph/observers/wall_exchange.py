@@ -100,7 +100,16 @@ class WallExchange(Observer):
         Quantity("box.heat.difference_K", "K", "difference of their temperatures"),
         Quantity("box.walls.from_s", "s", "begin of the time over which these are means"),
     )
-    kept = ("size", "images", "conductivity", "temperature", "between", "sums", "marks", "told")
+    kept = (
+        "size",
+        "images",
+        "conductivity",
+        "temperature",
+        "between",
+        "sums",
+        "marks",
+        "known_forces",
+    )
 
     def __init__(self, dimension: int = 2) -> None:
         """
@@ -122,7 +131,7 @@ class WallExchange(Observer):
         self.conductivity = 0.0
         self.temperature: dict[str, float] = {}
         self.between: list[str] = []
-        self.told: list[str] = []
+        self.known_forces: list[str] = []
         self.sums = {"time": 0.0, MEAN: 0.0} | {
             name: 0.0 for name in (*(f"heat_{side}" for side in self.sides), *self.forces)
         }
@@ -145,7 +154,7 @@ class WallExchange(Observer):
         self.sums |= {force: booked.get(force, 0.0) for force in self.forces}
         # below a surface that moves, and between mirrors, no force onto a face is known
         known = ("drag", "pressing") if flow.wall_pressing else ("drag",)
-        self.told = [force for force in self.forces if force.startswith(known)]
+        self.known_forces = [force for force in self.forces if force.startswith(known)]
         # marks of the sums, for the mean over the last quarter
         if view.step % EVERY == 0:
             self.marks.append(self.sums)
@@ -169,7 +178,7 @@ class WallExchange(Observer):
         )
         rate = rates(start, self.sums)
         found: dict[str, object] = {"box.walls.from_s": start["time"]}
-        for force in self.told:
+        for force in self.known_forces:
             found[f"box.walls.{force}{self.unit_of_force}"] = rate[force]
         # temperatures and fluxes of the sides, Nusselt numbers of those that drive the flow
         for side, temperature in self.temperature.items():

@@ -117,16 +117,26 @@ def test_single_precision_copies(backend):
 def test_kept_arrays(backend):
     """The same array for the same length, the same memory for lengths that it has room for."""
     kept = KeptArray(backend, 2)
-    array = kept.of(3)
-    assert array.shape == (2, 3) and kept.of(3) is array
-    backend.copy(backend.asarray([[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]), array)
+    array = kept.of(4)
+    assert array.shape == (2, 4) and kept.of(4) is array
+    backend.copy(backend.asarray([[1.0, 2.0, 3.0, 4.0], [5.0, 6.0, 7.0, 8.0]]), array)
 
-    # longer and shorter, within room for twice as many
-    longer = kept.of(5)
+    # longer and shorter, within the room for half as many more that all have
+    longer = kept.of(6)
     assert longer is not array
-    assert backend.to_host(longer).tolist() == [[1, 2, 3, 0, 0], [4, 5, 6, 0, 0]]
-    backend.fill(longer, 7.0)
-    assert backend.to_host(kept.of(2)).tolist() == [[7, 7], [7, 7]]
+    assert backend.to_host(longer).tolist() == [[1, 2, 3, 4, 0, 0], [5, 6, 7, 8, 0, 0]]
+    backend.fill(longer, 9.0)
+    assert backend.to_host(kept.of(3)).tolist() == [[9, 9, 9], [9, 9, 9]]
 
-    # beyond that it begins with zeros
-    assert backend.to_host(kept.of(7)).tolist() == [[0] * 7] * 2
+    # beyond that it begins with zeros, and where far fewer are left
+    assert backend.to_host(kept.of(13)).tolist() == [[0] * 13] * 2
+    backend.fill(kept.of(13), 8.0)
+    assert backend.to_host(kept.of(4)).tolist() == [[8] * 4] * 2
+    assert backend.to_host(kept.of(3)).tolist() == [[0] * 3] * 2
+
+
+def test_capacity():
+    """Twice as many; more where memory is not taken before it is written."""
+    backend = compute.cpu(threads=1)
+    assert backend.capacity_for(100) == 200
+    assert backend.capacity_for(2**19 - 1) == 2**20 - 2 and backend.capacity_for(2**19) == 2**22

@@ -79,7 +79,6 @@ class Flow:
         self.pressure_force = particles["pressure_force"]
         vectors = self.velocity.shape
         self.before, self.body_force = backend.zeros(vectors), backend.zeros(vectors)
-        self.force = backend.zeros(vectors)
         self.largest_speed = self.largest_acceleration = 0.0
         self.iterations = {"pressure": 0, "viscosity": 0}
         self.divergence = (0.0, 0.0)
@@ -92,6 +91,7 @@ class Flow:
         T, m = (backend.asarray(values) for values in liquid.relative_viscosity)
         self._viscosity_nodes = {"T_nodes": T, "m_nodes": m}
         self._viscosity_varies = bool(np.ptp(liquid.relative_viscosity[1]) > 0.0)
+        self.force = backend.zeros(vectors) if self._viscosity_varies else self.body_force
         self.relative_viscosity = backend.asarray(np.ones(count))
         # the explicit scheme is the published one, in which solid is as viscous as melt, and the
         # pressure acts after viscosity
@@ -163,14 +163,15 @@ class Flow:
             self.block.weigh_viscosity(relative)
 
     def _add_transposed_stress(self, extended: Array, kinds: ParticleKinds) -> None:
-        """Add div(nu (grad v)^T) to the force, 0 where the viscosity is the same everywhere.
+        """Add div(nu (grad v)^T) to the body forces, 0 where the viscosity is the same everywhere.
 
         Args:
             extended: (d, M) velocities with those of ghosts [m/s].
         """
         if not self._viscosity_varies:
             return
-        # (grad v)^T grad nu, both gradients corrected by C, beside the force of buoyancy
+        # (grad v)^T grad nu, both gradients corrected by C, beside what acts on the body
+        self.backend.copy(self.body_force, self.force)
         block = self.block
         fields = {"v": extended, "m": block.gather(self.relative_viscosity), "b": self.force}
         fields |= {"G_ij": block.gradient, "C": block.correction}
@@ -227,7 +228,6 @@ class Flow:
 
         # ghosts with the stress of the surface, and what a varying viscosity adds
         self._extended = self.extend_velocity(self.velocity)
-        backend.copy(self.body_force, self.force)
         self._add_transposed_stress(self._extended, kinds)
 
     def extend_velocity(self, v: Array) -> Array:
