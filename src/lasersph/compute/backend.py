@@ -30,6 +30,9 @@ MAPPED = 4 * 2**20
 """Elements from which on memory is mapped for an array alone: in float64 the 32 MiB up to which the
 C library may take it from what was given back, and write it. Mapped memory is not taken before it
 is written."""
+LARGEST = 2**26
+"""Guard: elements up to which more of it is mapped than is foreseen, 1.5 GiB of vectors in 3-D: a
+system may refuse addresses for more than it has memory."""
 GROWTH, MAPPED_GROWTH = 2, 8
 """Guard: elements that there is memory for where an array may grow, over those that it has."""
 
@@ -95,7 +98,10 @@ class Backend:
 
     def capacity_for(self, count: int) -> int:
         """Elements to have memory for where an array of so many may grow."""
-        return MAPPED_GROWTH * count if MAPPED_GROWTH * count >= MAPPED else GROWTH * count
+        mapped = MAPPED_GROWTH * count
+        if mapped > LARGEST:
+            return count + count // MAPPED_GROWTH
+        return mapped if mapped >= MAPPED else GROWTH * count
 
     def empty(self, shape: int | tuple[int, ...], dtype: Any) -> Array:
         """Array with undefined elements."""

@@ -136,7 +136,8 @@ def test_kept_arrays(backend):
 
 
 def test_capacity():
-    """Twice as many; more where memory is not taken before it is written."""
+    """Twice as many; more where memory is not taken before it is written, little of very many."""
     backend = compute.cpu(threads=1)
     assert backend.capacity_for(100) == 200
     assert backend.capacity_for(2**19 - 1) == 2**20 - 2 and backend.capacity_for(2**19) == 2**22
+    assert backend.capacity_for(2**23) == 2**26 and backend.capacity_for(2**24) == 9 * 2**21
