@@ -64,7 +64,7 @@ def even_rows(x, has_row, even_above):
 
 
 class PairGeometry:
-    """Arrays per pair, kept while lists have as much room.
+    """Arrays per pair, in memory that stays while the number of pairs changes a little.
 
     Attributes:
         arrays: of the list, weights (pairs,) g_ij, gradient (d, pairs) G_ij, kernel (pairs,).
