@@ -31,7 +31,7 @@ MAPPED = 4 * 2**20
 C library may take it from what was given back, and write it. Mapped memory is not taken before it
 is written."""
 LARGEST = 2**26
-"""Guard: elements up to which more of it is mapped than is foreseen, 1.5 GiB of vectors in 3-D: a
+"""Guard: elements up to which more is mapped than an array has, 1.5 GiB of vectors in 3-D: a
 system may refuse addresses for more than it has memory."""
 GROWTH, MAPPED_GROWTH = 2, 8
 """Guard: elements that there is memory for where an array may grow, over those that it has."""

@@ -8,7 +8,7 @@ from receding_metals import recession_of
 
 from lasersph import compute
 from lasersph.case import Case, available_cases, load_case
-from lasersph.compute import search
+from lasersph.compute import backend, search
 from lasersph.input import format_duration
 from lasersph.simulation import forecast
 from lasersph.simulation.case_forecast import SECONDS_PER_LOOP
@@ -182,7 +182,10 @@ def memory_of(case: Case) -> tuple[float, float]:
 
 def test_memory_of_a_pool_is_what_its_steps_take(monkeypatch) -> None:
     """What more particles take is within a fifth of what `check` says that they do."""
-    monkeypatch.setattr(search, "_PLACES_PER_ROW", 64)  # of room for rows little is ever written
+    # of room for rows and pairs little is ever written
+    monkeypatch.setattr(search, "_PLACES_PER_ROW", 64)
+    for growth in ("GROWTH", "MAPPED_GROWTH"):
+        monkeypatch.setattr(backend, growth, 1)
     # loads what takes memory once; compiling takes ten times as long where memory is traced
     step_with_a_molten_half(pool("64 nm"))
     (small, less), (large, more) = memory_of(pool("40 nm")), memory_of(pool("24 nm"))
