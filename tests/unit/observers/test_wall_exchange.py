@@ -9,6 +9,7 @@ from synthetic_flow import box_view, cube_view
 
 from lasersph.observers.view import of_whole
 from lasersph.observers.wall_exchange import EVERY, WallExchange, rates
+from lasersph.particles.faces import PLANE
 
 SIZE = 1e-3
 CONDUCTION = 2.0 * 20.0 / SIZE
@@ -71,6 +72,15 @@ def test_means_over_the_last_quarter():
     assert found["walls"]["drag_bottom_N_m"] == pytest.approx(1.0)
     assert found["walls"]["pressing_left_N_m"] == pytest.approx(5.0)
     assert found["walls"]["pressing_surface_N_m"] == pytest.approx(-1.0)
+
+
+def test_forces_that_nobody_knows_are_left_out():
+    """Where nothing is booked across the faces the summary has the drag alone."""
+    seen = box_view(time=1e-6, step=EVERY)
+    observer = WallExchange()
+    observer.observe(replace(seen, flow=replace(seen.flow, wall_pressing={})))
+    walls = observer.summary()["box"]["walls"]
+    assert set(walls) == {"from_s", *(f"drag_{side}_N_m" for side in PLANE)}
 
 
 def test_nusselt_number_only_where_heat_crosses():
