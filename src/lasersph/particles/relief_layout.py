@@ -85,11 +85,13 @@ def lay_below(layers: Layers, height: Array, *, keep_columns: bool = False) -> R
 def carry_over(
     layers: Layers, layout: ReliefLayout, position: Array, volume: Array, fields: Array
 ) -> tuple[Array, Array]:
-    """Volume (n,) [m^2] of the particles of a layout, whose sum stays what it is, and the means
-    (k, n) of fields over what each holds.
+    """Volume (n,) of the particles of a layout, whose sum stays what it is, and the means (k, n) of
+    fields over what each holds.
 
     Args:
-        position, volume, fields: (d, n), (n,), (k, n) of the particles of the finest layers before.
+        layout: where they lie, with volumes of the same kind: of cells [m^d], or of the rings that
+            they stand for [m^3]. position, volume, fields: (d, n), (n,), (k, n) of the particles of
+            the finest layers before.
 
     Raises:
         ValueError: a column holds no particle.

@@ -139,6 +139,16 @@ class PoolDomain:
         lowest = int(np.searchsorted(self._bottom, depth + MELT_MARGIN * self.support)) + 1
         return min(lowest, self._bottom.size)
 
+    def _last_layer(self) -> int:
+        """Layers of the block with the resting ones below, in which all of its rows are complete:
+        else coarse ones would keep pairs with finest ones that have moved away."""
+        below, total = self._bottom[self.block_layers - 1], self._bottom.size
+        below = (below + RESTING_LAYERS * self.spacing) * (1.0 + 1e-9)
+        last = min(int(np.searchsorted(self._bottom, below)) + 1, total)
+        while self._complete_layers(last) < self.block_layers:
+            last += 1
+        return last
+
     def _complete_layers(self, last: int) -> int:
         """Layers all of whose neighbors lie in a block of `last` layers.
 
@@ -179,9 +189,7 @@ class PoolDomain:
         self._grow(deepest)
         total = self._bottom.size
         if self._block is None or self._block.complete_layers != self.block_layers:
-            below = self._bottom[self.block_layers - 1] + RESTING_LAYERS * self.spacing
-            last = int(np.searchsorted(self._bottom, below * (1.0 + 1e-9))) + 1
-            last = min(last, total)
+            last = self._last_layer()
             self._block = self._block_type(
                 self.backend,
                 self.lattice,

@@ -102,18 +102,17 @@ class LayoutRenewal:
             self.recedes = least < MIN_VOLUME_RATIO * self._cell
         if not self.recedes:
             return
-        # even columns again, which take over h, p and v of what was there
-        layout, volume = self._layout(), self._fine("volume")
+        # even columns again, of bodies that take over h, p and v of those that were there
+        layout, body = self._layout(), self._measure * self._fine("volume")
         carried = [self._fine(name) for name in ("enthalpy", "pressure", "velocity")]
-        density = np.sum(self._fine("mass")) / np.sum(self._measure * volume)
-        place = self._fine("position")
-        volume, (h, p, *v) = carry_over(
-            self.domain.layers, layout, place, volume, np.vstack(carried)
+        density = np.sum(self._fine("mass")) / np.sum(body)
+        even = layout._replace(volume=self._measure * layout.volume)
+        body, (h, p, *v) = carry_over(
+            self.domain.layers, even, self._fine("position"), body, np.vstack(carried)
         )
 
         # the same mass and heat as before, without a past that a step could extrapolate
-        new = {"position": layout.position, "volume": volume}
-        new |= {"mass": density * self._measure * volume}
+        new = {"position": layout.position, "volume": body / self._measure, "mass": density * body}
         new |= {"pressure": p, "velocity": np.array(v)} | {name: h for name in HISTORY}
         self._place(new | {"enthalpy_excess": 0.0 * h})
 
