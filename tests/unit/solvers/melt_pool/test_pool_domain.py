@@ -1,5 +1,6 @@
 """Blocks that grow with the pool, and the pool that becomes too deep."""
 
+import numpy as np
 import pytest
 from flow_boxes import box, go, pool
 
@@ -72,6 +73,31 @@ def test_at_the_last_fine_layer():
     solver = molten_to(1.25e-6)
     solver.step(1e-12)
     assert solver.fluid_count == 8 * 10
+
+
+def test_coarse_layers_see_the_finest_where_they_are():
+    """Where the lowest of the finest have moved, those below give them as much heat as they get."""
+    solver = molten_to(4.0 * SPACING, "domain.depth=9um", "particles.ratio=0.6")
+    z = np.array(solver.position[1])
+    lowest = np.isclose(z, z[z > -1.25e-6].min())
+    solver.particles.set("position", np.array([solver.position[0], z + 0.1 * SPACING * lowest]))
+    solver.domain.cover_fine_layers()
+    block = solver.domain.block_for(solver.position, solver.kinds)
+    has_row = solver.backend.zeros(block.count)
+    solver.backend.fill(has_row, 1.0)
+    block.find_pairs(solver.position, has_row)
+    solver.pairs.update(block)
+    # sum of g_ij (a_j - a_i) over all pairs: 0 where g_ij = g_ji
+    pairs = solver.body.pairs
+    start, end = (
+        np.array(rows, int) for rows in (pairs.neighbors.row_start, pairs.neighbors.row_end)
+    )
+    rows = [np.arange(*ends) for ends in zip(start[:-1], end, strict=True)]
+    own = np.repeat(np.arange(len(rows)), [len(row) for row in rows])
+    place = np.concatenate(rows)
+    other = np.array(pairs.neighbors.neighbor, int)[place]
+    exchanged = np.array(pairs.weights)[place] * (z[other] - z[own])
+    assert abs(exchanged.sum()) < 1e-12 * np.abs(exchanged).sum()
 
 
 def test_pressure_does_not_see_the_coarser_layers():
