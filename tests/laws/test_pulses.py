@@ -108,10 +108,12 @@ def test_heat_may_be_spread(tmp_path):
     assert energy["imbalance_relative"] < 1e-4
 
 
-@pytest.mark.parametrize("amplitude, period", [("20nm", "5.05um"), ("60nm", "631.25nm")])
+@pytest.mark.parametrize(
+    "amplitude, period", [("20nm", "5.05um"), ("60nm", "631.25nm"), ("49.2nm", "315.625nm")]
+)
 def test_pairs_below_a_relief_are_symmetric(amplitude, period):
     """Laid out below a relief, each particle conducts to its neighbor what that one conducts to it,
-    in graded layers and under a slope of 0.6 too."""
+    in graded layers and under slopes of 0.6 and 0.98 too."""
     wave = {"amplitude": amplitude, "period": period}
     settings = [f"solver.flow.initial_surface.{key}={value}" for key, value in wave.items()]
     case = load_case("texture-steel", ("particles.spacing=32nm", *settings))

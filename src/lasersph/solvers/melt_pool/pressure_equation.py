@@ -38,6 +38,7 @@ from lasersph.linear_solvers.components import Components
 from lasersph.linear_solvers.grid_correction import GridCorrection
 from lasersph.linear_solvers.iteration import conjugate_gradients
 from lasersph.particles.neighbor_lists import NeighborList
+from lasersph.solvers.step_control import NotConverged
 
 MAX_ITERATIONS = 200
 """Iterations of a solution at most. Guard: 7 to 30 are usual at any size."""
@@ -53,6 +54,18 @@ class Outcome:
 
     iterations: int
     residual: float
+
+    def refuse_above(self, largest: float, equation: str) -> None:
+        """Halve the step where the residual of an equation is larger.
+
+        Raises:
+            NotConverged: it is.
+        """
+        if not self.residual <= largest:
+            raise NotConverged(
+                f"{equation} is left with a residual of {self.residual:.1e} of its right-hand side "
+                f"after {self.iterations} iterations"
+            )
 
 
 def inner(g_ij, component_i, component_j):

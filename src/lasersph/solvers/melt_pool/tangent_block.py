@@ -8,7 +8,7 @@ given, and no pair across counts for it; heat finds its face in the tangent at e
 from __future__ import annotations
 
 from dataclasses import replace
-from math import prod
+from math import prod, sqrt
 
 import numpy as np
 
@@ -19,10 +19,18 @@ from lasersph.particles.support import common
 from lasersph.solvers.melt_pool.block import Block
 from lasersph.surface.loops import inner_weight, mean_weight
 
+NEAR, BEYOND = 1.0, 2.0
+"""Marks of rows within which ghosts across the surface lie, and that have one themselves or not."""
 
-def is_near(x, distance, has_row, radius, reach, plane):
-    """1 for a particle that finds others beyond the surface, and whose pairs were found."""
-    return has_row if distance < reach_at(x, radius, reach, plane) else 0.0 * has_row
+
+def place_below(x, distance, has_row, radius, reach, plane):
+    """NEAR for a particle that finds others beyond the surface and has a ghost there itself; BEYOND
+    for one that only finds others, where the surface rises beside it, 45 degrees at most; 0 where
+    no pairs were found."""
+    within = reach_at(x, radius, reach, plane)
+    if distance < within:
+        return NEAR * has_row
+    return BEYOND * has_row if distance < sqrt(2.0) * within else 0.0 * has_row
 
 
 def flux_length(g_ij, across_j, flux_j, normal_j, plane_j, x_j):
@@ -46,14 +54,14 @@ class TangentBlock(Block):
         backend, ghosts = self.backend, self.ghosts
         ghosts.mark_crossing()
 
-        # rows within the support of the surface
-        near, reach = backend.zeros(self.count), self.layers.reach
+        # rows within the support of the surface, and those that may find ghosts beside them
+        mark, reach = backend.zeros(self.count), self.layers.reach
         fields = {"distance": backend.head(ghosts.surface.distance, self.count)}
         fields |= {"x": backend.head(position, self.count)}
         fields |= {"radius": reach.radius, "reach": reach.reach}
         fields["has_row"] = self.has_row if self.has_row is not None else ghosts.particles.all_rows
-        backend.pointwise(is_near, fields, near, plane=reach.plane)
-        rows = backend.rows_where(near, 1.0)
+        backend.pointwise(place_below, fields, mark, plane=reach.plane)
+        rows, beyond = (backend.rows_where(mark, place) for place in (NEAR, BEYOND))
 
         # weights of the way back, with the ghosts in the place of their sources; mean of both ways
         swapped = self._geometry.per_pair("swapped")
@@ -61,6 +69,8 @@ class TangentBlock(Block):
         self._geometry.find_weights(pairs, self.layers.fields, swapped, rows)
         fields = {"g_ij": self.weights, "swapped_ij": swapped, "across": self.across}
         backend.pair_values(mean_weight, self.pairs, fields, self.weights, rows=rows)
+        # a particle without a ghost is not seen from there, and so sees nothing there
+        backend.pair_values(inner_weight, self.pairs, fields, self.weights, rows=beyond)
 
         # n . x = b of the tangent between each ghost and its source
         self.walls.find_tangents()

@@ -36,6 +36,9 @@ from lasersph.surface.riding_surface import Ride
 TOLERANCE = 1e-8
 """Residual of the equation of phi over its right-hand side. Accuracy: what a uniform field changes
 by in a step is that share of the divergence that the projection has left."""
+LARGEST_RESIDUAL = 1e-3
+"""The same with which a step is still taken. Guard: single precision ends at some 1e-6; fluxes that
+are off by more bring new extremes, and the step is halved."""
 
 
 def passing_velocity(v, w):
@@ -148,7 +151,11 @@ class Transport:
 
     def carry(self, flow: Flow, kinds: ParticleKinds, ride: Ride, step: float) -> None:
         """Enthalpy and velocity after the melt has flowed for a step [s] between particles that
-        have ridden with the surface."""
+        have ridden with the surface.
+
+        Raises:
+            NotConverged: phi is not found.
+        """
         block = flow.block
         assert isinstance(block, RingBlock | RingTangentBlock)
         self._work_on(block)
@@ -159,7 +166,8 @@ class Transport:
         self._equation.set_operator(block.without_ghosts(), block.weights, flows, self._V)
         # F*, phi that closes its balance, F
         self.find_flux(block, ride.growth)
-        self._equation.solve(self._gathered, self._phi)
+        outcome = self._equation.solve(self._gathered, self._phi)
+        outcome.refuse_above(LARGEST_RESIDUAL, "the balance of the fluxes")
         self.close_flux(block)
         # slopes of h and v, then what pairs exchange
         self.find_slopes(block, kinds)

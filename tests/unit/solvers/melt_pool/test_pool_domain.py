@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from flow_boxes import box, go, pool
+from flow_boxes import box, go, places_of, pool
 
 from lasersph.solvers.melt_pool.domain import GROWTH, MELT_MARGIN, PoolTooDeep
 
@@ -89,14 +89,9 @@ def test_coarse_layers_see_the_finest_where_they_are():
     solver.pairs.update(block)
     # sum of g_ij (a_j - a_i) over all pairs: 0 where g_ij = g_ji
     pairs = solver.body.pairs
-    start, end = (
-        np.array(rows, int) for rows in (pairs.neighbors.row_start, pairs.neighbors.row_end)
-    )
-    rows = [np.arange(*ends) for ends in zip(start[:-1], end, strict=True)]
-    own = np.repeat(np.arange(len(rows)), [len(row) for row in rows])
-    place = np.concatenate(rows)
-    other = np.array(pairs.neighbors.neighbor, int)[place]
-    exchanged = np.array(pairs.weights)[place] * (z[other] - z[own])
+    row, place = places_of(solver.backend, pairs.neighbors)
+    other = np.asarray(pairs.neighbors.neighbor, int)[place]
+    exchanged = np.asarray(pairs.weights)[place] * (z[other] - z[row])
     assert abs(exchanged.sum()) < 1e-12 * np.abs(exchanged).sum()
 
 

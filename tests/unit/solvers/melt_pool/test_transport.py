@@ -6,6 +6,7 @@ from flow_boxes import place_of
 from law_runs import host, start_from
 from spot_pools import half_ball, spot_pool
 
+from lasersph.solvers.melt_pool.pressure_equation import Outcome, PressureEquation
 from lasersph.solvers.melt_pool.transport import (
     TOLERANCE,
     after_transport,
@@ -14,6 +15,7 @@ from lasersph.solvers.melt_pool.transport import (
     gathering,
     pair_flux,
 )
+from lasersph.solvers.step_control import NotConverged
 
 G = np.array([0.0, -2.0])  # from i upward to j: kernels fall with distance
 STILL, UP = np.zeros(2), np.array([0.0, 1.0])
@@ -147,3 +149,13 @@ def test_transport_keeps_heat_and_uniform_values(pool):
     before = host(solver, "enthalpy").copy()
     solver.advect(1e-8)
     assert host(solver, "enthalpy") == pytest.approx(before, rel=TOLERANCE)
+
+
+def test_fluxes_without_a_balance_are_refused(monkeypatch):
+    """They would bring new extremes: the step is halved instead."""
+    solver = spot_pool(half_ball, spacing=1e-7, width=1.6e-6)[1]
+    solver.step(1e-10)
+    monkeypatch.setattr(PressureEquation, "solve", lambda *_, **__: Outcome(7, 0.5))
+    line = "the balance of the fluxes is left with a residual of 5.0e-01 of its right-hand side"
+    with pytest.raises(NotConverged, match=f"{line} after 7 iterations"):
+        solver.advect(1e-10)
