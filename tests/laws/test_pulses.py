@@ -83,7 +83,7 @@ def test_heat_of_the_pause_is_booked(runs):
     assert pause["time_s"] == PERIOD
     (height,) = summary["topography"]["after_pulses_m"]
     assert height == pytest.approx(np.ptp(relief(one)), rel=0.05)  # of parabolas, of columns
-    assert abs(pause["volume_added_m2"]) < 1e-9 * 1.5e-6 * 2.5e-6
+    assert abs(pause["volume_added_m3"]) < 1e-9 * 1.5e-6 * 2.5e-6
     assert energy["imbalance_relative"] < 1e-4
 
 

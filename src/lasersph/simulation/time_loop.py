@@ -279,7 +279,7 @@ class _Loop:
             step=self.steps + 1,
             length_s=pause,
             heat_removed_J=parts * (now["energy.pauses"] - before["energy.pauses"]),
-            volume_added_m2=parts * (now["rearranged"] - before["rearranged"]),
+            volume_added_m3=parts * (now["rearranged"] - before["rearranged"]),
         )
 
     def _progress(self) -> RunProgress:

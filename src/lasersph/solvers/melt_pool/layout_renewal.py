@@ -42,7 +42,7 @@ class LayoutRenewal:
     """Lays the particles of a pool out below its surface.
 
     Attributes:
-        volume: that they have gained in pauses so far [m^2]. recedes: whether they are laid out
+        volume: that they have gained in pauses so far [m^3]. recedes: whether they are laid out
             before each step.
     """
 
@@ -78,7 +78,7 @@ class LayoutRenewal:
         """
         # even columns below the surface as it is; what it remembers of the flow is gone
         layout, surface = self._layout(), self.domain.surface
-        self.volume += float(np.sum(layout.volume) - np.sum(self._fine("volume")))
+        self.volume += float(np.sum(self._measure * (layout.volume - self._fine("volume"))))
         self.recedes = False
         surface.reset()
 
