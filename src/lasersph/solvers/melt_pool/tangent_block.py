@@ -20,7 +20,8 @@ from lasersph.solvers.melt_pool.block import Block
 from lasersph.surface.loops import inner_weight, mean_weight
 
 NEAR, BEYOND = 1.0, 2.0
-"""Marks of rows within which ghosts across the surface lie, and that have one themselves or not."""
+"""Marks of rows that ghosts across the surface lie within, and that have one themselves or not.
+Format: rows are chosen by them."""
 
 
 def place_below(x, distance, has_row, radius, reach, plane):
