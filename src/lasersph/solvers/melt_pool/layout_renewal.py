@@ -5,7 +5,7 @@ evaporates, and once one has less than MIN_VOLUME_RATIO of its volume, all are l
 step, with what they carry. Else rows at the surface become thinner without end, above the melt that
 comes from below; lower than the gap that is kept below the surface, none would count as lying at
 it: steel that melts and evaporates under steady light, six rows in D/v, had no surface after five
-rows.
+rows. In a section (r, z) rows become as thin where the melt flows out of their columns.
 """
 
 from __future__ import annotations

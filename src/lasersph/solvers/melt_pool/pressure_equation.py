@@ -56,7 +56,7 @@ class Outcome:
     residual: float
 
     def refuse_above(self, largest: float, equation: str) -> None:
-        """Halve the step where the residual of an equation is larger.
+        """Let the step be halved where the residual of an equation is larger.
 
         Raises:
             NotConverged: it is.
