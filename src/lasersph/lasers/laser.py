@@ -82,7 +82,8 @@ class Laser(LaserKeys):
             return True
         # nothing is known of the symmetry of a measured spot
         is_measured = self.spot is not None and self.spot.image is not None and self.is_bounded
-        return self.path is None and self.position[axis] == 0.0 and not is_measured
+        leaves = self.path is not None and self.path.leaves(axis)
+        return self.position[axis] == 0.0 and not leaves and not is_measured
 
     @property
     def displacement(self) -> float | None:

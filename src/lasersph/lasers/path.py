@@ -21,6 +21,8 @@ from lasersph.lasers.pulses import Pulse
 Array = NDArray[np.float64]
 Axis = Callable[[Array | float], Array]
 """Position of the beam's axis at times [s], shape (2, ...) [m]."""
+ROUNDING = 1e-12
+"""Cosine of a right angle. Rounding: some thousand times that of an angle in radians."""
 PANEL_NODES, PANEL_WEIGHTS = np.polynomial.legendre.leggauss(6)
 
 
@@ -35,6 +37,11 @@ class LinearPath(Model):
         """Displacement from the start at times [s], shape (2, ...) [m]."""
         distance = self.speed * np.asarray(time, float)
         return np.stack([distance * np.cos(self.direction), distance * np.sin(self.direction)])
+
+    def leaves(self, axis: int) -> bool:
+        """Whether the beam leaves the plane x = 0 (axis 0) or y = 0 (axis 1)."""
+        across = (np.cos(self.direction), np.sin(self.direction))[axis]
+        return bool(abs(across) > ROUNDING)
 
     def breakpoints(self) -> Array:
         """Times of corners [s]: none."""
@@ -60,6 +67,10 @@ class TabulatedPath(Model):
         t, x, y = np.array(self.table, float).T
         time = np.asarray(time, float)
         return np.stack([np.interp(time, t, x), np.interp(time, t, y)])
+
+    def leaves(self, axis: int) -> bool:
+        """Whether the beam leaves the plane x = 0 (axis 0) or y = 0 (axis 1)."""
+        return any(row[1 + axis] != 0.0 for row in self.table)
 
     def breakpoints(self) -> Array:
         """Times of corners [s]."""

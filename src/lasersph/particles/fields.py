@@ -107,6 +107,14 @@ FLOW = _table(
         "vector",
         is_kept=True,
     ),
+    Field(
+        "flux_potential",
+        "phi",
+        "m^2/s",
+        "what made the fluxes between rings free of divergence in the last step",
+        is_kept=True,
+    ),
+    Field("flux_potential_before", "phi_old", "m^2/s", "the same one step before", is_kept=True),
     Field("was_fluid", "was_fluid", "1", "1 where it flowed one step ago", is_kept=True),
     Field(
         "has_moving_pairs",

@@ -39,7 +39,8 @@ class HeatingForecast:
         reflectivity: at both. of_pulse: with hot electrons, in the mean over the light of a pulse;
             else None. absorbed_mean, absorbed_peak: fluence [J/m^2] with that, else that of `cold`.
         sideways: whether heat that flows out of the spot is left out, so that it gets less hot.
-        melts, boils: whether it gets as hot as that; None for a metal without the temperature.
+        melts, boils: whether it gets as hot as that; None for a metal without the temperature, and
+            where how hot it gets is not known.
         held: metal that the heat kept at the boiling point would turn into vapor [m].
         evaporated: metal that leaves as vapor in a pulse where most does [m].
     """
@@ -69,7 +70,8 @@ def heating_forecast(case: Case, estimate: MeltEstimate | None) -> HeatingForeca
     taken = 1.0 - (R if of_pulse is None else of_pulse)
     # Without phase change there is nothing to melt or boil.
     marks = (case.material.melting, case.material.vaporization)
-    melting, boiling = marks if case.solver.phase_change else (None, None)
+    is_known = case.solver.phase_change and estimate is not None
+    melting, boiling = marks if is_known else (None, None)
     return HeatingForecast(
         cold,
         hottest,

@@ -47,6 +47,9 @@ a solution may rise by some hundreds before it falls."""
 FLAT = 1e-13
 """Curvature along a direction over its square below which it is none. Rounding: some hundred times
 that of a sum of positive and negative terms."""
+LEAST = 1e-10
+"""Smaller additions are none, so that rings far from the axis and from the side have none.
+Accuracy: what a temperature that depends on z alone errs by."""
 SMALLEST = 1e-300
 """Least divisor. Format: keeps 0 / 0 from systems without a residual."""
 FACTORS = (0.1, 10.0)
@@ -110,7 +113,7 @@ def ring_additions(pairs: RingPairs, wanted: Array) -> Array:
     is_far = (factor < FACTORS[0]) | (factor > FACTORS[1])
     is_solved[system[row[is_far]]] = False
     found = np.zeros(sums.size)
-    found[unknown] = np.where(is_solved[system], b, 0.0)
+    found[unknown] = np.where(is_solved[system] & (np.abs(b) >= LEAST), b, 0.0)
     return found.reshape(wanted.shape)
 
 

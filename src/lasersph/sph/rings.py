@@ -6,11 +6,12 @@
 
 The radial one is (1/r^2) d/dr (r^3 d(u/r)/dr), the Laplacian and the hoop stress -u/r^2 in one:
 0 for u = a r whatever the particles do, and symmetric. Taken apart they leave 0.1 to 0.4 of u/r^2
-beside the axis. No pair reaches across the axis, through which nothing flows. The divergence is the
-flow through the mean rings of pairs, as conduction is: so beside the axis both are off by the same
-5 and 2 % of the first columns, and a pressure undoes what it should. With u_i/r_i beside the
-divergence of the plane, which no kernel smooths, pressure and u/r in the first four columns differ
-from those beside them by several times.
+beside the axis. So that no pair divides, r_ij^2/(r_i r_j) (u_j - u_i) is summed in every iteration,
+and what that leaves of u_i once in a step. No pair reaches across the axis, through which nothing
+flows. The divergence is the flow through the mean rings of pairs, as conduction is: so beside the
+axis both are off by the same 5 and 2 % of the first columns, and a pressure undoes what it should.
+With u_i/r_i beside the divergence of the plane, which no kernel smooths, pressure and u/r in the
+first four columns differ from those beside them by several times.
 """
 
 from __future__ import annotations
@@ -58,28 +59,41 @@ def evened_ring_weight(g_ij, layer_i, layer_j, ring_i, ring_j, has_none_j, addit
     return g_ij * max(1.0 + b_i + (1.0 - has_none_j) * b_j, 0.0)
 
 
-def hoop_share(r_i, r_j):
-    """r_ij^2/(r_i r_j): what u_j/r_j counts for times r_i [1]."""
-    middle = 0.5 * (r_i + r_j)
-    return middle * middle / (r_i * r_j)
+def ring_pair(g_ij, measure_i, measure_j, x_j, r_i, r_j, c_i, c_j):
+    """Values of a pair of rings: its weight twice, of flow and of heat, and `hoop_share`."""
+    g = ring_weight_off_axis(g_ij, measure_i, measure_j, x_j)
+    return g, g, hoop_share(r_i, r_j, c_i, c_j)
 
 
-def ring_momentum(g_ij, v_i, v_j, r_i, r_j):
-    """Viscous force on a ring over eta [m^2/s], g_ij by `ring_weight`: radial with the hoop stress.
+def hoop_share(r_i, r_j, c_i, c_j):
+    """r_ij^2/(r_i r_j): what u_j/r_j counts for times r_i [1].
 
     Args:
-        v: velocity, radial first [m/s]. r: distance from the axis [m].
+        r: distance from the axis [m]. c: 1/r, so that no pair divides [1/m].
     """
-    radial = hoop_share(r_i, r_j) * (v_j[0] - r_j / r_i * v_i[0])
-    return g_ij * vector(radial, v_j[1] - v_i[1])
+    middle = 0.5 * (r_i + r_j)
+    return middle * middle * (c_i * c_j)
 
 
-def ring_diagonal(g_ij, r_i, r_j):
-    """Share of v_i that `ring_momentum` takes, by component: diagonal of its matrix [m]."""
-    return g_ij * vector(hoop_share(r_i, r_j) * (r_j / r_i), 1.0)
+def ring_momentum(g_ij, v_i, v_j, hoop_ij):
+    """Viscous force over eta that a pair of rings passes on [m^2/s]; `ring_diagonal` has what the
+    hoop stress takes beside it.
+
+    Args:
+        g: by `ring_weight`. v: velocity, radial first [m/s]. hoop: `hoop_share`.
+    """
+    return g_ij * vector(hoop_ij * (v_j[0] - v_i[0]), v_j[1] - v_i[1])
 
 
-def ring_divergence_term(v_i, v_j, C_i, G_ij, r_i, r_j, x_j):
+def ring_diagonal(g_ij, hoop_ij, r_i, r_j, c_i, c_j):
+    """Shares of v_i that the viscous force takes, by component [m]: through `ring_momentum`, and
+    by the hoop stress beside it, r_ij^2 (1/r_i^2 - 1/(r_i r_j))."""
+    middle = 0.5 * (r_i + r_j)
+    own = middle * middle * c_i * (c_i - c_j)
+    return g_ij * vector(hoop_ij, 1.0), g_ij * vector(own, 0.0)
+
+
+def ring_divergence_term(v_i, v_j, C_i, G_ij, r_i, r_j, c_i, x_j):
     """Term of the divergence of a velocity [1/s]: r_ij/r_i (v_i + v_j) . C G_ij, 0 across the axis.
 
     Its part v_i . C G_ij counts along r alone: across it sums up to nothing where particles are
@@ -89,4 +103,4 @@ def ring_divergence_term(v_i, v_j, C_i, G_ij, r_i, r_j, x_j):
         return 0.0 * r_i
     gradient = matvec(C_i, G_ij)
     change = dot(v_j - v_i, gradient) + 2.0 * v_i[0] * gradient[0]
-    return 0.5 * (r_i + r_j) / r_i * change
+    return 0.5 * (r_i + r_j) * c_i * change

@@ -138,6 +138,20 @@ def test_symmetry_is_known():
     assert not laser(fluence=1.0, beam=STRIPES, path={"kind": "linear", "speed": 1.0}).is_even
 
 
+@pytest.mark.parametrize(
+    "path",
+    [
+        {"kind": "linear", "speed": 6.0, "direction": np.pi / 2.0},
+        {"kind": "tabulated", "table": ((0.0, 0.0, 0.0), (1e-8, 0.0, 2e-5))},
+    ],
+)
+def test_a_spot_that_stays_in_a_plane_is_symmetric_about_it(path):
+    """Along y the light is the same at x and -x, not at y and -y."""
+    moving = laser(pulse_energy=1.0, beam=SPOT, path=path)
+    assert moving.is_mirrored(0)
+    assert not moving.is_mirrored(1)
+
+
 def test_written_case_is_read_with_units():
     """Text with units in every place, as a case file has it."""
     given = {

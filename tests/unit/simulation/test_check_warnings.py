@@ -75,6 +75,15 @@ def test_light_that_does_not_melt():
     )
 
 
+def test_a_spot_that_moves_is_not_said_to_be_cold():
+    """How hot it gets is not estimated, and so nothing is said of melt."""
+    beam = ("laser.beam.kind=gaussian", "laser.beam.radius_1e2=2 um", "laser.beam.beams=")
+    track = ("laser.path.kind=linear", "laser.path.speed=6 m/s", "laser.path.direction=90 deg")
+    warnings = said("texture-dots-steel", *beam, *track, "laser.beam.period=", "domain.extent=half")
+    assert "nothing melts" not in warnings
+    assert "nan" not in warnings
+
+
 def test_proposed_snapshots_fit_a_disk():
     """Of a pulse of femtoseconds ten frames in a pulse to the end would be millions."""
     short = ["laser.pulse.fwhm=100 fs", "laser.fluence=0.1 J/cm^2"]

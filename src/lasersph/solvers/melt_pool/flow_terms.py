@@ -7,7 +7,6 @@ from typing import Any, NamedTuple
 
 from lasersph.compute.vectors import dot
 from lasersph.physics.viscosity import momentum
-from lasersph.solvers.melt_pool.block_terms import weight_of
 from lasersph.sph.correction import corrected_divergence_term
 from lasersph.sph.density_drift import density_drift_source
 from lasersph.sph.rings import ring_diagonal, ring_divergence_term, ring_momentum
@@ -32,9 +31,9 @@ def divergence_terms(v_i, v_j, C_i, G_ij, VW_ij):
     return corrected_divergence_term(v_i, v_j, C_i, G_ij), VW_ij
 
 
-def ring_divergence_terms(v_i, v_j, C_i, G_ij, VW_ij, r_i, r_j, x_j):
+def ring_divergence_terms(v_i, v_j, C_i, G_ij, VW_ij, r_i, r_j, c_i, x_j):
     """`divergence_terms` of rings."""
-    return ring_divergence_term(v_i, v_j, C_i, G_ij, r_i, r_j, x_j), VW_ij
+    return ring_divergence_term(v_i, v_j, C_i, G_ij, r_i, r_j, c_i, x_j), VW_ij
 
 
 def divergence_load(total_0, total_1, V, fraction, lattice_sum, rate):
@@ -81,25 +80,38 @@ def divergence_sizes(total):
     return total * total, abs(total)
 
 
+def all_momentum(g_ij, v_i, v_j):
+    """`momentum`, what that takes of v_i, and what a hoop stress takes: nothing."""
+    return momentum(g_ij, v_i, v_j), g_ij, 0.0 * g_ij
+
+
+def all_ring_momentum(g_ij, v_i, v_j, hoop_ij, r_i, r_j, c_i, c_j):
+    """`all_momentum` of rings."""
+    through_pairs, by_hoop = ring_diagonal(g_ij, hoop_ij, r_i, r_j, c_i, c_j)
+    return ring_momentum(g_ij, v_i, v_j, hoop_ij), through_pairs, by_hoop
+
+
 class FlowTerms(NamedTuple):
     """Pair functions of the flow that differ by geometry.
 
     Attributes:
-        momentum: viscous force over eta. diagonal: what it takes of v_i, a number or one of each
-            component, by diagonal_shape. divergence: of a velocity. divergence_terms: that, and the
-            kernel sum. drift_rate: at which particles that are too dense part, over the largest
-            speed per spacing.
+        momentum: viscous force over eta that pairs pass on. all_momentum: that, what it takes of
+            v_i and what the hoop stress takes, numbers or one of each component, by diagonal_shape.
+        divergence: of a velocity. divergence_terms: that, and the kernel sum. drift_rate: at which
+            particles that are too dense part, over the largest speed per spacing.
     """
 
     momentum: Callable[..., Any]
-    diagonal: Callable[..., Any]
+    all_momentum: Callable[..., Any]
     diagonal_shape: tuple[int, ...]
     divergence: Callable[..., Any]
     divergence_terms: Callable[..., Any]
     drift_rate: float
 
 
-PLANE = FlowTerms(momentum, weight_of, (), corrected_divergence_term, divergence_terms, DRIFT_RATE)
+PLANE = FlowTerms(
+    momentum, all_momentum, (), corrected_divergence_term, divergence_terms, DRIFT_RATE
+)
 RINGS = FlowTerms(
-    ring_momentum, ring_diagonal, (2,), ring_divergence_term, ring_divergence_terms, 0.0
+    ring_momentum, all_ring_momentum, (2,), ring_divergence_term, ring_divergence_terms, 0.0
 )

@@ -17,7 +17,8 @@ from lasersph.compute.array_types import Array, Constants
 from lasersph.solvers.melt_pool.block import Block
 from lasersph.solvers.melt_pool.block_terms import either
 from lasersph.solvers.melt_pool.tangent_block import TangentBlock
-from lasersph.sph.rings import evened_ring_weight, ring_weight_off_axis
+from lasersph.sph.rings import STEPS, evened_ring_weight, ring_pair
+from lasersph.surface.columns import product
 
 
 def join_new(found, near):
@@ -39,12 +40,26 @@ class Rings(Block):
         position = self.lattice.position[:, : self.count]
         self._lengths = self.backend.asarray(self.lattice.geometry.measure(position))
         self._radius = self.backend.asarray(np.ascontiguousarray(position[0]))
+        self._curvature = self.backend.asarray(1.0 / position[0])
         types = self.ghosts.particles.ghost_types
         beside = np.any(types.crossed[:-1] != 0, axis=0)
         self._tangents = self.ghosts.particles.table(types.crosses_surface * (1.0 + beside))
-        self.measure = self._radii = self.tangents = self._lengths
+        self.measure = self._radii = self._curvatures = self.tangents = self._lengths
         self._numbers = self.backend.asarray(np.arange(float(self.count)))
-        self._heat = self.weights
+        self._heat = self._hoop = self.weights
+        self._is_uneven = self._find_uneven(position[0])
+
+    def _find_uneven(self, r: np.ndarray) -> Array | None:
+        """(count,) 1 where rings at these distances from the axis [m] may see one with additions to
+        its weights of heat; None where no ring has any."""
+        if self.lattice.additions is None:
+            return None
+        additions = self.backend.to_host(self.lattice.additions).reshape(-1, STEPS)
+        has_some = self.lattice.position[0, : additions.shape[0]][additions.any(axis=1)]
+        distance = np.full(r.shape, np.inf)
+        for place in np.unique(has_some):
+            np.minimum(distance, np.abs(r - place), out=distance)
+        return self.backend.asarray(distance <= self.layers.search_radius, "real")
 
     @property
     def heat_weights(self) -> Array:
@@ -53,8 +68,14 @@ class Rings(Block):
 
     @property
     def ring_fields(self) -> dict[str, Array]:
-        """Distances from the axis of rings and ghosts [m], those of their sources."""
-        return {"r": self._radii}
+        """Distances from the axis of rings and ghosts [m], those of their sources, and 1/r [1/m];
+        of pairs what the hoop stress makes of u (`sph.rings.hoop_share`) [1]."""
+        return self._distances | {"hoop_ij": self._hoop}
+
+    @property
+    def _distances(self) -> dict[str, Array]:
+        """Distances from the axis of rings and ghosts [m], and 1/r [1/m]."""
+        return {"r": self._radii, "c": self._curvatures}
 
     def _renewed(self, before: Array, values: Array) -> Array:
         """Values in the place of those before, if there are as many: loops are bound to that."""
@@ -68,24 +89,33 @@ class Rings(Block):
         super()._adapt_weights(position)
         self.measure = self._renewed(self.measure, self.gather(self._lengths))
         self._radii = self._renewed(self._radii, self.gather(self._radius))
+        self._curvatures = self._renewed(self._curvatures, self.gather(self._curvature))
         self.tangents = self._renewed(self.tangents, self.ghosts.of_type(self._tangents))
-        fields = {"g_ij": self.weights, "measure": self.measure}
-        self.backend.pair_values(
-            ring_weight_off_axis, self.pairs, fields, self.weights, rows=self.rows
-        )
-        self._heat = self.weights
-        if self.lattice.additions is None:
-            return
-        # weights of heat, which make rings even along z
-        self._heat = self._geometry.per_pair("heat")
+        # of the flow and of heat, and what the hoop stress makes of u
+        self._heat, self._hoop = (self._geometry.per_pair(name) for name in ("heat", "hoop"))
+        fields = {"g_ij": self.weights, "measure": self.measure, **self._distances}
+        out = (self.weights, self._heat, self._hoop)
+        self.backend.pair_values(ring_pair, self.pairs, fields, out, rows=self.rows)
+        if self._is_uneven is not None:
+            self._even_heat(self._is_uneven)
+
+    def _even_heat(self, is_uneven: Array) -> None:
+        """Weights of heat that make rings even along z, where some have additions."""
+        backend, rows = self.backend, is_uneven
+        if self.has_row is not None:
+            rows = backend.zeros(self.count)
+            backend.pointwise(product, {"a": is_uneven, "b": self.has_row}, rows)
         fields = {"g_ij": self.weights, "layer": self.layers.fields["layer"]}
         fields |= {"ring": self.gather(self._numbers), "has_none": self.walls.rules["dirichlet"]}
-        table: Constants = {
-            "additions": self.lattice.additions,
-            "layers": float(self.lattice.layers),
-        }
-        self.backend.pair_values(
-            evened_ring_weight, self.pairs, fields, self._heat, rows=self.rows, **table
+        additions = self.lattice.additions
+        table: Constants = {"additions": additions, "layers": float(self.lattice.layers)}
+        backend.pair_values(
+            evened_ring_weight,
+            self.pairs,
+            fields,
+            self._heat,
+            rows=backend.rows_where(rows, 1.0),
+            **table,
         )
 
 

@@ -5,11 +5,11 @@
 
 with u the velocity of the melt over that of the particles, which ride with the surface where it
 moves and rest elsewhere, V_i their volumes and L_i what leaves through the surface. F_ij is the
-volume that flows from i to j in a second [m^3/s], between melt and melt alone. phi
-makes it free of divergence to the rounding of its solution, so that what is the same everywhere
-stays the same; what one particle gives its neighbor gets. a_ij is the value of the particle from
-which the melt comes, carried on by its gradient to the middle of the pair and of the step, within
-the range of both: of second order where a is smooth, and no new extreme [vanLeer1979]. Particles at
+volume that flows from i to j in a second [m^3/s], between melt and melt alone. phi makes it free of
+divergence, so that what is the same everywhere stays the same; it is sought from where the last two
+steps lead. What one particle gives its neighbor gets. a_ij is the value of the particle from which
+the melt comes, carried on by its gradient to the middle of the pair and of the step, within the
+range of both: of second order where a is smooth, and no new extreme [vanLeer1979]. Particles at
 rest that melt passes through are those of [Lind2016], without its kernels of fourth order.
 
 Beyond a surface that bends the ghosts of i and j are not each other's mirror images. Pairs across
@@ -25,7 +25,6 @@ from lasersph.compute.kept_array import KeptArray
 from lasersph.compute.vectors import dot, matmul, matvec, outer, transpose, vector
 from lasersph.particles.particles import Particles
 from lasersph.solvers.melt_pool.block import Block
-from lasersph.solvers.melt_pool.block_terms import weight_of
 from lasersph.solvers.melt_pool.flow import Flow
 from lasersph.solvers.melt_pool.particle_kinds import ParticleKinds
 from lasersph.solvers.melt_pool.particle_shifting import clip_to_range
@@ -33,7 +32,7 @@ from lasersph.solvers.melt_pool.pressure_equation import PressureEquation
 from lasersph.solvers.melt_pool.ring_block import RingBlock, RingTangentBlock
 from lasersph.surface.riding_surface import Ride
 
-TOLERANCE = 1e-8
+TOLERANCE = 1e-6
 """Residual of the equation of phi over its right-hand side. Accuracy: what a uniform field changes
 by in a step is that share of the divergence that the projection has left."""
 LARGEST_RESIDUAL = 1e-3
@@ -81,9 +80,21 @@ def pair_flux(
     return 0.5 * (measure_i + measure_j) * V_i * dot(v_i + v_j, G_ij)
 
 
-def gathering(total, growth, measure):
-    """Volume that gathers in a particle beyond its growth and the loss of its surface [m^3/s]."""
-    return total + growth * measure
+def flux_and_slope_terms(flux_ij, h_i, h_j, v_i, v_j, pool_i, pool_j, G_ij):
+    """Terms of what flows out, and of grad h among what flows and of grad v, uncorrected."""
+    change = h_j - h_i if pool_i == pool_j else 0.0 * h_i
+    return flux_ij, change * G_ij, outer(v_j - v_i, G_ij)
+
+
+def gathering_and_slopes(total_0, total_1, total_2, growth, measure, C):
+    """Volume that gathers in a particle beyond its growth and the loss of its surface [m^3/s];
+    grad h [J/(kg m)] and (grad v)_ab = d v_a/d x_b [1/s], exact on linear fields."""
+    return total_0 + growth * measure, matvec(C, total_1), matmul(total_2, transpose(C))
+
+
+def extrapolated(phi, phi_old):
+    """phi along a straight line through the last two steps, and that of the last one [m^2/s]."""
+    return 2.0 * phi - phi_old, phi
 
 
 def closed_flux(flux_ij, g_ij, pool_i, pool_j, phi_i, phi_j):
@@ -93,42 +104,63 @@ def closed_flux(flux_ij, g_ij, pool_i, pool_j, phi_i, phi_j):
     return flux_ij - g_ij * (phi_j - phi_i)
 
 
-def slope_terms(h_i, h_j, v_i, v_j, pool_i, pool_j, G_ij):
-    """Terms of grad h among what flows, and of grad v, uncorrected."""
-    change = h_j - h_i if pool_i == pool_j else 0.0 * h_i
-    return change * G_ij, outer(v_j - v_i, G_ij)
-
-
-def corrected_slopes(total_0, total_1, C):
-    """grad h [J/(kg m)] and (grad v)_ab = d v_a/d x_b [1/s], exact on linear fields."""
-    return matvec(C, total_0), matmul(total_1, transpose(C))
+def upstream(gives, a_i, a_j):
+    """The value of the particle that gives: of i where `gives` is 1, of j where it is 0."""
+    return gives * a_i + (1.0 - gives) * a_j
 
 
 def exchanged_values(
-    flux_ij, h_i, h_j, v_i, v_j, grad_h_i, grad_h_j, grad_v_i, grad_v_j, x_ij, tangent_j, half_step
+    F_ij, h_i, h_j, v_i, v_j, grad_h_i, grad_h_j, grad_v_i, grad_v_j, x_ij, tangent_j, half_step
 ):
-    """h and v that a pair exchanges, times its flux."""
-    if tangent_j > 0.0:
-        # beyond a surface that bends, the values themselves
-        if flux_ij > 0.0:
-            return flux_ij * h_i, flux_ij * v_i
-        return flux_ij * h_j, flux_ij * v_j
-    # from where the melt comes to the middle of the pair, half a step before
-    if flux_ij > 0.0:
-        displacement = -0.5 * x_ij - half_step * v_i
-        h, v = h_i + dot(grad_h_i, displacement), v_i + matvec(grad_v_i, displacement)
-    else:
-        displacement = 0.5 * x_ij - half_step * v_j
-        h, v = h_j + dot(grad_h_j, displacement), v_j + matvec(grad_v_j, displacement)
+    """h and v that a pair exchanges, times its flux F_ij."""
+    # from where the melt comes to the middle of the pair, half a step before; beyond a surface that
+    # bends nowhere
+    gives = 1.0 if F_ij > 0.0 else 0.0
+    carries_on = 0.0 if tangent_j > 0.0 else 1.0
+    h_u, v_u = upstream(gives, h_i, h_j), upstream(gives, v_i, v_j)
+    displacement = carries_on * ((0.5 - gives) * x_ij - half_step * v_u)
+    h = h_u + dot(upstream(gives, grad_h_i, grad_h_j), displacement)
+    v = v_u + matvec(upstream(gives, grad_v_i, grad_v_j), displacement)
     # within the range of both
-    kept = vector(*(flux_ij * clip_to_range(v[k], v_i[k], v_j[k], v_j[k]) for k in range(len(v))))
-    return flux_ij * clip_to_range(h, h_i, h_j, h_j), kept
+    kept = vector(*(F_ij * clip_to_range(v[k], v_i[k], v_j[k], v_j[k]) for k in range(len(v))))
+    return F_ij * clip_to_range(h, h_i, h_j, h_j), kept
 
 
-def after_transport(total_0, total_1, h, v, volume, growth, measure, step):
-    """h [J/kg] and v [m/s] after a step in which a particle has grown to its volume."""
+def exchange_terms(
+    flux_ij,
+    g_ij,
+    pool_i,
+    pool_j,
+    phi_i,
+    phi_j,
+    h_i,
+    h_j,
+    v_i,
+    v_j,
+    grad_h_i,
+    grad_h_j,
+    grad_v_i,
+    grad_v_j,
+    x_ij,
+    tangent_j,
+    half_step,
+):
+    """`exchanged_values` of the closed flux."""
+    F_ij = closed_flux(flux_ij, g_ij, pool_i, pool_j, phi_i, phi_j)
+    return exchanged_values(
+        F_ij, h_i, h_j, v_i, v_j, grad_h_i, grad_h_j, grad_v_i, grad_v_j, x_ij, tangent_j, half_step
+    )
+
+
+def after_transport(total_0, total_1, h, v, h_old, h_older, volume, growth, measure, step):
+    """h [J/kg] and v [m/s] after a step in which a particle has grown to its volume.
+
+    h of the steps before changes alike: what is left between them is what the particle has
+    conducted, and that goes on.
+    """
     share, grown = step / volume, growth * measure
-    return h - share * (total_0 + grown * h), v - share * (total_1 + grown * v)
+    change = share * (total_0 + grown * h)
+    return h - change, v - share * (total_1 + grown * v), h_old - change, h_older - change
 
 
 class Transport:
@@ -143,7 +175,10 @@ class Transport:
 
     def __init__(self, particles: Particles, volume: Array) -> None:
         self.backend, self.volume = particles.backend, volume
+        particles.add("flux_potential", "flux_potential_before")
         self.h, self.v = particles["enthalpy"], particles["velocity"]
+        self._potentials = particles["flux_potential"], particles["flux_potential_before"]
+        self._h_before = particles["enthalpy_before"], particles["enthalpy_two_before"]
         self._kept = KeptArray(self.backend)
         self.flux = self._kept.of(0)
         self._block: RingBlock | RingTangentBlock | None = None
@@ -164,13 +199,13 @@ class Transport:
         # pools: melt that nothing separates
         flows = self.backend.head(kinds.fluid, block.count)
         self._equation.set_operator(block.without_ghosts(), block.weights, flows, self._V)
-        # F*, phi that closes its balance, F
-        self.find_flux(block, ride.growth)
+        # F*, what it leaves in each particle, and the slopes of h and v
+        self.find_flux(block)
+        self.find_balance(block, kinds, ride.growth)
+        # phi that closes the balance, from that of the last step
         outcome = self._equation.solve(self._gathered, self._phi)
         outcome.refuse_above(LARGEST_RESIDUAL, "the balance of the fluxes")
-        self.close_flux(block)
-        # slopes of h and v, then what pairs exchange
-        self.find_slopes(block, kinds)
+        # F, and what pairs exchange by it
         self.exchange(block, kinds, ride.growth, step, 0.5 * step)
 
     def _work_on(self, block: RingBlock | RingTangentBlock) -> None:
@@ -186,7 +221,8 @@ class Transport:
                 period=block.conditions.periods,
                 is_even=False,
             )
-            self._gathered, self._phi = backend.zeros(count), backend.zeros(count)
+            self._gathered = backend.zeros(count)
+            self._phi, self._phi_old = (backend.head(phi, count) for phi in self._potentials)
             self._grad_h, self._grad_v = backend.zeros((2, count)), backend.zeros((2, 2, count))
         self.flux = self._kept.of(block.weights.shape[0])
 
@@ -200,39 +236,33 @@ class Transport:
         }
 
     @graph
-    def find_flux(self, block: RingBlock | RingTangentBlock, growth: Array) -> None:
-        """F* of the pairs, and what would gather in each particle."""
-        backend, rows = self.backend, block.rows
+    def find_flux(self, block: RingBlock | RingTangentBlock) -> None:
+        """F* of the pairs."""
         fields = self._pair_fields(block, self._passing) | {"V": block.V, "g_ij": block.weights}
         fields |= {"measure": block.measure, "tangent": block.tangents}
         fields |= {"source": block.ghosts.source}
         tables: Constants = {"u": self._passing, "place": block.ghosts.place}
         tables |= {"distance": block.ghosts.surface.distance}
-        backend.pair_values(pair_flux, block.pairs, fields, self.flux, rows=rows, **tables)
-        fields = {"g_ij": self.flux, "growth": growth, "measure": block.measure}
-        backend.fill(self._phi, 0.0)
-        backend.pair_sum(
-            weight_of, block.pairs, fields, self._gathered, rows=rows, finish=gathering
+        self.backend.pair_values(
+            pair_flux, block.pairs, fields, self.flux, rows=block.rows, **tables
         )
 
     @graph
-    def close_flux(self, block: Block) -> None:
-        """F from F* and phi."""
-        fields = {"flux_ij": self.flux, "g_ij": block.weights, "phi": block.gather(self._phi)}
-        fields["pool"] = block.gather(self._equation.components.number)
-        self.backend.pair_values(closed_flux, block.pairs, fields, self.flux, rows=block.rows)
-
-    @graph
-    def find_slopes(self, block: Block, kinds: ParticleKinds) -> None:
-        """Gradients of enthalpy and velocity of what flows."""
+    def find_balance(
+        self, block: RingBlock | RingTangentBlock, kinds: ParticleKinds, growth: Array
+    ) -> None:
+        """Volume that would gather in each particle, and the slopes of h and v there."""
         fields = self._pair_fields(block, self.v)
-        fields |= {"h": block.gather(self.h), "C": block.correction}
+        fields |= {"flux_ij": self.flux, "h": block.gather(self.h), "C": block.correction}
+        fields |= {"growth": growth, "measure": block.measure}
+        fields |= {"phi": self._phi, "phi_old": self._phi_old}
+        self.backend.pointwise(extrapolated, fields, (self._phi, self._phi_old))
         self.backend.pair_sum(
-            slope_terms,
+            flux_and_slope_terms,
             block.pairs,
             fields,
-            (self._grad_h, self._grad_v),
-            finish=corrected_slopes,
+            (self._gathered, self._grad_h, self._grad_v),
+            finish=gathering_and_slopes,
             rows=kinds.fluid_rows,
         )
 
@@ -245,18 +275,20 @@ class Transport:
         step: float,
         half_step: float,
     ) -> None:
-        """h and v after the exchange of the pairs."""
+        """h and v after the exchange of the pairs by the fluxes without divergence."""
         ghosts = block.ghosts
         fields = self._pair_fields(block, self.v)
-        fields |= {"flux_ij": self.flux, "h": block.gather(self.h), "tangent": block.tangents}
+        fields |= {"flux_ij": self.flux, "g_ij": block.weights, "phi": block.gather(self._phi)}
+        fields |= {"h": block.gather(self.h), "tangent": block.tangents}
         fields |= {"grad_h": ghosts.mirror(self._grad_h)}
         fields |= {"grad_v": ghosts.extend_tensor(self._grad_v), "volume": self.volume}
         fields |= {"growth": growth, "measure": block.measure}
+        fields |= dict(zip(("h_old", "h_older"), self._h_before, strict=True))
         self.backend.pair_sum(
-            exchanged_values,
+            exchange_terms,
             block.pairs,
             fields,
-            (self.h, self.v),
+            (self.h, self.v, *self._h_before),
             finish=after_transport,
             rows=kinds.fluid_rows,
             step=step,

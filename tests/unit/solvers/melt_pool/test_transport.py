@@ -11,8 +11,11 @@ from lasersph.solvers.melt_pool.transport import (
     TOLERANCE,
     after_transport,
     closed_flux,
+    exchange_terms,
     exchanged_values,
-    gathering,
+    extrapolated,
+    flux_and_slope_terms,
+    gathering_and_slopes,
     pair_flux,
 )
 from lasersph.solvers.step_control import NotConverged
@@ -49,8 +52,19 @@ def test_flux_across_a_surface_that_moves():
 
 
 def test_what_gathers_in_a_ring():
-    """What flows out, and what its volume of 4 m grows by."""
-    assert gathering(6.0, -2.0, 4.0) == -2.0
+    """What flows out and what its volume of 4 m grows by; slopes by C, of h within a pool only."""
+    v_j, C = np.array([0.0, 1.5]), np.diag([1.0, -0.25])
+    terms = flux_and_slope_terms(6.0, 1.0, 3.0, UP, v_j, 1, 1, G)
+    gathered, grad_h, grad_v = gathering_and_slopes(*terms, -2.0, 4.0, C)
+    assert gathered == -2.0
+    assert grad_h == pytest.approx([0.0, 1.0])
+    assert grad_v == pytest.approx(np.array([[0.0, 0.0], [0.0, 0.25]]))
+    assert not flux_and_slope_terms(6.0, 1.0, 3.0, UP, v_j, 1, 2, G)[1].any()
+
+
+def test_first_guess_follows_a_line():
+    """phi of 3 after 2 is 4 next, and 3 is what it was."""
+    assert extrapolated(3.0, 2.0) == (4.0, 3.0)
 
 
 def test_potential_closes_a_flux():
@@ -88,16 +102,27 @@ def test_both_sides_of_a_pair_exchange_the_same():
     assert np.array_equal(there[1], -back[1])
 
 
+def test_exchange_is_by_the_closed_flux():
+    """2 m^3/s less a weight of three times a rise of one half: h of the giver, a fourth as much."""
+    tensor, none = np.zeros((2, 2)), np.zeros(2)
+    values = (10.0, 20.0, UP, STILL, none, none, tensor, tensor, np.array([0.0, -1.0]), 0.0, 0.1)
+    h, v = exchange_terms(2.0, 3.0, 1, 1, 1.0, 1.5, *values)
+    assert h == 0.5 * 10.0
+    assert v == pytest.approx(0.5 * UP)
+
+
 def test_step_of_a_ring():
-    """What has left, times the step over the volume."""
-    h, v = after_transport(6.0, np.array([2.0, -4.0]), 10.0, UP, 2.0, 0.0, 4.0, 0.5)
+    """What has left, times the step over the volume; h of steps before changes alike."""
+    total = (6.0, np.array([2.0, -4.0]))
+    h, v, h_old, h_older = after_transport(*total, 10.0, UP, 9.0, 7.0, 2.0, 0.0, 4.0, 0.5)
     assert h == 10.0 - 1.5
     assert v == pytest.approx([-0.5, 2.0])
+    assert (h_old, h_older) == (9.0 - 1.5, 7.0 - 1.5)
 
 
 def test_step_of_a_ring_that_grows():
     """From 1 to 2 m^3, by what flows in: the same h and v fill more."""
-    share = after_transport(-20.0, -2.0 * UP, 10.0, UP, 2.0, 0.5, 4.0, 0.5)
+    share = after_transport(-20.0, -2.0 * UP, 10.0, UP, 10.0, 10.0, 2.0, 0.5, 4.0, 0.5)
     assert share[0] == 10.0
     assert share[1] == pytest.approx(UP)
 
@@ -124,11 +149,16 @@ def test_fluxes_close(pool):
     turn(solver, places)
     solver.advect(1e-12)
     transport, block = solver.transport, solver.flow.block
-    start, F = np.asarray(block.pairs.row_start).astype(int), np.asarray(transport.flux)
-    row = np.repeat(np.arange(block.count), np.diff(start))
-    total = np.bincount(row, F[: start[-1]], minlength=block.count)
-    assert np.abs(F[: start[-1]]).max() > 0.0
-    assert np.abs(total).max() < 1e-7 * np.bincount(row, np.abs(F[: start[-1]])).max()
+    start = np.asarray(block.pairs.row_start).astype(int)
+    i = np.repeat(np.arange(block.count), np.diff(start))
+    j = np.asarray(block.without_ghosts().neighbor)[: start[-1]].astype(int)
+    potential, pool = host(solver, "flux_potential"), np.asarray(solver.kinds.fluid)
+    flux, g = (np.asarray(values)[: start[-1]] for values in (transport.flux, block.weights))
+    pairs = zip(flux, g, pool[i], pool[j], potential[i], potential[j], strict=True)
+    F = np.array([closed_flux(*pair) for pair in pairs])
+    total = np.bincount(i, F, minlength=block.count)
+    assert np.abs(F).max() > 0.0
+    assert np.abs(total).max() < TOLERANCE * np.bincount(i, np.abs(F)).max()
 
 
 def test_transport_keeps_heat_and_uniform_values(pool):
