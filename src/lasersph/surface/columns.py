@@ -88,9 +88,13 @@ def product(a, b):
     return a * b
 
 
-def lies_at_surface(depth, V, spacing):
-    """1 for a particle of the uppermost row, as high as it is and at most one spacing, else 0."""
-    return 1.0 if depth * spacing < min(V, spacing * spacing) else 0.0
+def lies_at_surface(depth, V, spacing, area):
+    """1 for a particle of the uppermost row, as high as it is and at most one spacing, else 0.
+
+    Args:
+        depth: below the surface [m]. V: volume [m^d]. area: of a column seen from above [m^(d-1)].
+    """
+    return 1.0 if depth * area < min(V, spacing * area) else 0.0
 
 
 class OwnColumns:

@@ -279,7 +279,8 @@ class MeltPool:
         self.domain.find_depth(self.position, self._depth)
         mark, columns = backend.zeros(self.body.count), self.surface_columns
         fields = {"depth": self._depth, "V": self.particles["volume"]}
-        backend.pointwise(lies_at_surface, fields, mark, spacing=self.domain.spacing)
+        spacing, d = self.domain.spacing, self.position.shape[0]
+        backend.pointwise(lies_at_surface, fields, mark, spacing=spacing, area=spacing ** (d - 1))
         surface = self.domain.surface
         fine = backend.head(mark, self.body.filling.fine_count)
         columns.find(self.position, backend.rows_where(fine, 1.0), surface.length_ratio())

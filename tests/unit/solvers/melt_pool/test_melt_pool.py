@@ -58,12 +58,16 @@ def restored(state):
 
 
 def test_uppermost_row_by_hand():
-    """Squares of 2 x 2, thinner ones that have evaporated, and coarse ones far below."""
-    assert lies_at_surface(1.0, 4.0, 2.0) == 1.0
-    assert lies_at_surface(3.0, 4.0, 2.0) == 0.0
-    assert lies_at_surface(0.5, 2.0, 2.0) == 1.0
-    assert lies_at_surface(1.5, 2.0, 2.0) == 0.0
-    assert lies_at_surface(30.0, 100.0, 2.0) == 0.0
+    """Squares of 2 x 2 and cubes of 0.5, thinner ones that have evaporated, and coarse ones far
+    below."""
+    assert lies_at_surface(1.0, 4.0, 2.0, 2.0) == 1.0
+    assert lies_at_surface(3.0, 4.0, 2.0, 2.0) == 0.0
+    assert lies_at_surface(0.5, 2.0, 2.0, 2.0) == 1.0
+    assert lies_at_surface(1.5, 2.0, 2.0, 2.0) == 0.0
+    assert lies_at_surface(30.0, 100.0, 2.0, 2.0) == 0.0
+    assert lies_at_surface(0.25, 0.125, 0.5, 0.25) == 1.0
+    assert lies_at_surface(0.75, 0.125, 0.5, 0.25) == 0.0
+    assert lies_at_surface(0.35, 0.0625, 0.5, 0.25) == 0.0
 
 
 def failing(solver, name, error, times):
