@@ -57,11 +57,15 @@ def momentum(g_ij, v_i, v_j):
     return g_ij * (v_j - v_i)
 
 
-def predict(total_0, total_2, v, V, nu, b, step):
+def predict(total, v, V, nu, b, step):
     """Velocity after viscous force and body force b [m/s], explicit.
 
     Args:
-        total_0: sum of `momentum`. total_2: K, what the hoop stress of a ring takes, else 0. v:
-            [m/s]. V: volume [m^d]. nu: [m^2/s]. b: [m/s^2]. step: [s].
+        total: sum of `momentum`. v: [m/s]. V: volume [m^d]. nu: [m^2/s]. b: [m/s^2]. step: [s].
     """
-    return v + step * (nu / V * (total_0 - total_2 * v) + b)
+    return v + step * (nu / V * total + b)
+
+
+def forced(v, b, step):
+    """Velocity after the body force alone [m/s]."""
+    return v + step * b

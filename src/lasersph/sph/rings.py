@@ -76,7 +76,7 @@ def hoop_share(r_i, r_j, c_i, c_j):
 
 
 def ring_momentum(g_ij, v_i, v_j, hoop_ij):
-    """Viscous force over eta that a pair of rings passes on [m^2/s]; `ring_diagonal` has what the
+    """Viscous force over eta that a pair of rings passes on [m^2/s]; `ring_resistance` has what the
     hoop stress takes beside it.
 
     Args:
@@ -85,12 +85,17 @@ def ring_momentum(g_ij, v_i, v_j, hoop_ij):
     return g_ij * vector(hoop_ij * (v_j[0] - v_i[0]), v_j[1] - v_i[1])
 
 
-def ring_diagonal(g_ij, hoop_ij, r_i, r_j, c_i, c_j):
-    """Shares of v_i that the viscous force takes, by component [m]: through `ring_momentum`, and
-    by the hoop stress beside it, r_ij^2 (1/r_i^2 - 1/(r_i r_j))."""
+def ring_resistance(g_ij, r_i, r_j, c_i, c_j):
+    """K: share of u_i that the hoop stress takes beside `ring_momentum` [m],
+    r_ij^2 (1/r_i^2 - 1/(r_i r_j)); arguments of `hoop_share`."""
     middle = 0.5 * (r_i + r_j)
-    own = middle * middle * c_i * (c_i - c_j)
-    return g_ij * vector(hoop_ij, 1.0), g_ij * vector(own, 0.0)
+    return g_ij * (middle * middle * c_i * (c_i - c_j))
+
+
+def ring_diagonal(g_ij, r_i, r_j, c_i):
+    """Share of v_i that both take, by component: diagonal of their matrix [m]."""
+    middle = 0.5 * (r_i + r_j) * c_i
+    return g_ij * vector(middle * middle, 1.0)
 
 
 def ring_divergence_term(v_i, v_j, C_i, G_ij, r_i, r_j, c_i, x_j):

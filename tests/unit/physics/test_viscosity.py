@@ -5,6 +5,7 @@ import pytest
 
 from lasersph.physics.viscosity import (
     RIGID,
+    forced,
     momentum,
     predict,
     stiffness,
@@ -58,4 +59,5 @@ def test_explicit():
     """v + dt (nu / V sum + b) with nu = 2, V = 4, dt = 0.1: 1 + 0.1 (0.5 * 1 + 3)."""
     total = momentum(0.5, FIRST, SECOND)
     b = np.array([3.0, 0.0])
-    assert predict(total, 0.0, FIRST, 4.0, 2.0, b, 0.1).tolist() == pytest.approx([1.35, -0.05])
+    assert predict(total, FIRST, 4.0, 2.0, b, 0.1).tolist() == pytest.approx([1.35, -0.05])
+    assert forced(FIRST, b, 0.1).tolist() == pytest.approx([1.3, 0.0])

@@ -7,9 +7,15 @@ from typing import Any, NamedTuple
 
 from lasersph.compute.vectors import dot
 from lasersph.physics.viscosity import momentum
+from lasersph.solvers.melt_pool.block_terms import weight_of
 from lasersph.sph.correction import corrected_divergence_term
 from lasersph.sph.density_drift import density_drift_source
-from lasersph.sph.rings import ring_diagonal, ring_divergence_term, ring_momentum
+from lasersph.sph.rings import (
+    ring_diagonal,
+    ring_divergence_term,
+    ring_momentum,
+    ring_resistance,
+)
 
 DRIFT_RATE = 0.1
 """Rate at which particles that are too dense part, over the largest speed per spacing; 0 where they
@@ -80,29 +86,20 @@ def divergence_sizes(total):
     return total * total, abs(total)
 
 
-def all_momentum(g_ij, v_i, v_j):
-    """`momentum`, what that takes of v_i, and what a hoop stress takes: nothing."""
-    return momentum(g_ij, v_i, v_j), g_ij, 0.0 * g_ij
-
-
-def all_ring_momentum(g_ij, v_i, v_j, hoop_ij, r_i, r_j, c_i, c_j):
-    """`all_momentum` of rings."""
-    through_pairs, by_hoop = ring_diagonal(g_ij, hoop_ij, r_i, r_j, c_i, c_j)
-    return ring_momentum(g_ij, v_i, v_j, hoop_ij), through_pairs, by_hoop
-
-
 class FlowTerms(NamedTuple):
     """Pair functions of the flow that differ by geometry.
 
     Attributes:
-        momentum: viscous force over eta that pairs pass on. all_momentum: that, what it takes of
-            v_i and what the hoop stress takes, numbers or one of each component, by diagonal_shape.
-        divergence: of a velocity. divergence_terms: that, and the kernel sum. drift_rate: at which
-            particles that are too dense part, over the largest speed per spacing.
+        momentum: viscous force over eta that pairs pass on. resistance: of u, what the hoop stress
+            takes beside them, None in a plane. diagonal: what both take of v_i, a number or one of
+            each component, by diagonal_shape. divergence: of a velocity. divergence_terms: that,
+            and the kernel sum. drift_rate: at which particles that are too dense part, over the
+            largest speed per spacing.
     """
 
     momentum: Callable[..., Any]
-    all_momentum: Callable[..., Any]
+    resistance: Callable[..., Any] | None
+    diagonal: Callable[..., Any]
     diagonal_shape: tuple[int, ...]
     divergence: Callable[..., Any]
     divergence_terms: Callable[..., Any]
@@ -110,8 +107,14 @@ class FlowTerms(NamedTuple):
 
 
 PLANE = FlowTerms(
-    momentum, all_momentum, (), corrected_divergence_term, divergence_terms, DRIFT_RATE
+    momentum, None, weight_of, (), corrected_divergence_term, divergence_terms, DRIFT_RATE
 )
 RINGS = FlowTerms(
-    ring_momentum, all_ring_momentum, (2,), ring_divergence_term, ring_divergence_terms, 0.0
+    ring_momentum,
+    ring_resistance,
+    ring_diagonal,
+    (2,),
+    ring_divergence_term,
+    ring_divergence_terms,
+    0.0,
 )

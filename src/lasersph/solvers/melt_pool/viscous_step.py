@@ -1,10 +1,10 @@
 """Viscous forces of a step: explicit as published, or those at the end of the step.
 
-Implicit: (V_i + s sum_j g_ij + s K_i) v_i - s sum_j g_ij v_j = V_i (v_i + dt b_i), s = nu dt, for
-the fluid particles, all components at once, by conjugate gradients from the present velocity. K_i
-is what a ring resists by its hoop stress beside its pairs (`sph.rings`), 0 in a plane. Ghosts
+Implicit: (V_i + s sum_j g_ij) v_i - s sum_j g_ij v_j = V_i (v_i + dt b_i), s = nu dt, for the fluid
+particles, all components at once, by conjugate gradients from the present velocity. Ghosts
 count with the velocity that the faces give them, resting particles with zero; the system is
-symmetric and positive, since a ghost changes at most the sign of a component.
+symmetric and positive, since a ghost changes at most the sign of a component. Rings resist by their
+hoop stress, too (`sph.rings`): V_i counts for V_i + s K_i where u_i is solved for, and v* is less.
 """
 
 from __future__ import annotations
@@ -14,9 +14,9 @@ from functools import partial
 from lasersph.compute.array_types import Array, Rows
 from lasersph.compute.backend import Backend
 from lasersph.compute.graph import graph
-from lasersph.compute.vectors import dot
+from lasersph.compute.vectors import dot, vector
 from lasersph.linear_solvers.iteration import conjugate_gradients
-from lasersph.physics.viscosity import predict
+from lasersph.physics.viscosity import forced, predict
 from lasersph.solvers.melt_pool.block import Block
 from lasersph.solvers.melt_pool.flow_terms import FlowTerms
 from lasersph.solvers.melt_pool.particle_kinds import ParticleKinds
@@ -29,26 +29,31 @@ MAX_ITERATIONS = 200
 few are usual."""
 
 
-def first_residual(total_0, total_1, total_2, v, V, b, s, step):
-    """Residual r = V dt b + s (sum g (v_j - v_i) - K v), its scaled form z, diagonal D and K; and
-    r . z, r . r."""
-    r = V * (step * b) + s * (total_0 - total_2 * v)
-    # Jacobi: the diagonal of the matrix is V + s (sum g + K)
-    D = V + s * (total_1 + total_2)
-    z = 1.0 / D * r
-    return r, z, D, total_2, dot(r, z), dot(r, r)
+def first_residual(total, v, V, v_star, g_sum, s):
+    """Residual r = V (v* - v) + s sum g (v_j - v_i), its scaled form z, and r . z, r . r."""
+    # Jacobi: the diagonal of the matrix is V + s sum g
+    r = V * (v_star - v) + s * total
+    z = 1.0 / (V + s * g_sum) * r
+    return r, z, dot(r, z), dot(r, r)
 
 
-def matrix_product(total, d, V, K, s):
+def resisted(total, v_star, v, V, s):
+    """v* less what the hoop stress takes in the step, and V + s K of each component; `total` is
+    K."""
+    k = vector(s * total, 0.0 * total)
+    return v_star - 1.0 / V * k * v, V + k
+
+
+def matrix_product(total, d, V, s):
     """q = A d, and d . q; `total` is the sum of g_ij (d_j - d_i)."""
-    q = V * d - s * (total - K * d)
+    q = V * d - s * total
     return q, dot(d, q)
 
 
-def next_solution(v, r, d, q, D, alpha):
+def next_solution(v, r, d, q, V, g_sum, alpha, s):
     """v += alpha d, r -= alpha q, z scaled; reduces r . z and r . r."""
     residual = r - alpha * q
-    z = 1.0 / D * residual
+    z = 1.0 / (V + s * g_sum) * residual
     return v + alpha * d, residual, z, dot(residual, z), dot(residual, residual)
 
 
@@ -80,10 +85,13 @@ class ViscousStep:
     ) -> None:
         count, self.volume, self.terms = volume.shape[0], volume, terms
         self.backend, self.nu, self.is_implicit = backend, viscosity, kind == "implicit"
-        # r, z, d and q of conjugate gradients, or the velocity after an explicit step
-        vectors = 4 if self.is_implicit else 1
-        self._work = [backend.zeros((dimension, count)) for _ in range(vectors)]
-        self._D, self._K = (backend.zeros((*terms.diagonal_shape, count)) for _ in range(2))
+        vectors = 5 if self.is_implicit else 1
+        self._star, *self._work = (backend.zeros((dimension, count)) for _ in range(vectors))
+        self._g_sum = backend.zeros((*terms.diagonal_shape, count))
+        # V, of rings with what their hoop stress resists
+        self._inertia = volume
+        if terms.resistance is not None:
+            self._inertia = backend.zeros((dimension, count))
         self.velocity = backend.zeros((dimension, count))
         self._changes = backend.zeros((dimension, 0))
 
@@ -101,18 +109,19 @@ class ViscousStep:
             return 0
         terms, fields = self.terms, self._fields(block) | {"v": extended, "b": b}
         if not self.is_implicit:
-            (new,), pairs, nu = self._work, block.pairs, self.nu
+            pairs, star, nu = block.pairs, self._star, self.nu
             backend.copy(v, self.velocity)
             backend.pair_sum(
-                terms.all_momentum, pairs, fields, new, rows=rows, finish=predict, nu=nu, step=step
+                terms.momentum, pairs, fields, star, rows=rows, finish=predict, nu=nu, step=step
             )
-            backend.copy(new, v)
+            self._resist(block, v, rows, self.nu * step)
+            backend.copy(self._star, v)
             return 0
         s = self.nu * step
         r_z, r_r = self.find_first_residual(block, v, b, extended, rows, s, step)
         steps = (
             partial(self.set_direction, block, rows, s),
-            partial(self.approach, v, rows),
+            partial(self.approach, v, rows, s),
             None,
         )
         iterations, *_ = backend.iterate(
@@ -125,27 +134,36 @@ class ViscousStep:
         """Weights and volumes that every sum reads."""
         return {"g_ij": block.viscous_weights, "V": self.volume, **block.ring_fields}
 
+    def _resist(self, block: Block, v: Array, rows: Rows, s: float) -> None:
+        """Let the hoop stress of rings act on v*, at the velocities (d, n) [m/s]."""
+        resistance = self.terms.resistance
+        if resistance is None:
+            return
+        fields = self._fields(block) | {"v_star": self._star, "v": v}
+        out = (self._star, self._inertia)
+        self.backend.pair_sum(resistance, block.pairs, fields, out, rows=rows, finish=resisted, s=s)
+
     @graph
     def find_first_residual(
         self, block: Block, v: Array, b: Array, extended: Array, rows: Rows, s: float, step: float
     ) -> None:
         """Residual of the first guess, and the diagonal; reduces r z and r r."""
-        backend, terms = self.backend, self.terms
+        backend, terms, fields = self.backend, self.terms, self._fields(block)
         r, z, d, _ = self._work
         backend.fill(d, 0.0)  # which ghosts read beyond the rows
         self._changes = backend.zeros((extended.shape[0], block.ghosts.size))
 
-        # r = V v* - A v with v* = v + dt b, z = r / D
+        # sum_j g_ij and v* = v + dt b
+        backend.pair_sum(terms.diagonal, block.pairs, fields, self._g_sum, rows=rows)
+        backend.pointwise(forced, {"v": v, "b": b}, self._star, step=step)
+        self._resist(block, v, rows, s)
+
+        # r = V v* - A v, z = r / diagonal
+        given = fields | {"v": extended, "b": b, "v_star": self._star, "g_sum": self._g_sum}
+        out, reduce = (r, z, None, None), (None, None, "sum", "sum")
+        pairs, finish = block.pairs, first_residual
         backend.pair_sum(
-            terms.all_momentum,
-            block.pairs,
-            self._fields(block) | {"v": extended, "b": b},
-            (r, z, self._D, self._K, None, None),
-            rows=rows,
-            finish=first_residual,
-            reduce=(None, None, None, None, "sum", "sum"),
-            s=s,
-            step=step,
+            terms.momentum, pairs, given, out, rows=rows, finish=finish, reduce=reduce, s=s
         )
 
     @graph
@@ -154,7 +172,7 @@ class ViscousStep:
         _, z, d, q = self._work
         self.backend.pointwise(next_direction, {"z": z, "d": d}, d, rows=rows, beta=beta)
         block.ghosts.extend_velocity_change(d, self._changes)
-        fields = self._fields(block) | {"v": self._changes, "d": d, "K": self._K}
+        fields = self._fields(block) | {"v": self._changes, "d": d, "V": self._inertia}
         self.backend.pair_sum(
             self.terms.momentum,
             block.pairs,
@@ -167,9 +185,11 @@ class ViscousStep:
         )
 
     @graph
-    def approach(self, v: Array, rows: Rows, alpha: float) -> None:
+    def approach(self, v: Array, rows: Rows, s: float, alpha: float) -> None:
         """v += alpha d, r -= alpha q, z = r / diagonal; reduces r z and r r."""
         r, z, d, q = self._work
-        fields = {"v": v, "r": r, "z": z, "d": d, "q": q, "D": self._D}
+        fields = {"v": v, "r": r, "z": z, "d": d, "q": q, "V": self.volume, "g_sum": self._g_sum}
         out, reduce = (v, r, z, None, None), (None, None, None, "sum", "sum")
-        self.backend.pointwise(next_solution, fields, out, rows=rows, reduce=reduce, alpha=alpha)
+        self.backend.pointwise(
+            next_solution, fields, out, rows=rows, reduce=reduce, alpha=alpha, s=s
+        )
