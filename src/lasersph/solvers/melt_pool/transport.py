@@ -170,7 +170,7 @@ class Transport:
         volume: (n,) of the rings [m^3].
 
     Attributes:
-        flux: (pairs,) F_ij of the last step [m^3/s].
+        flux: (pairs,) F* of the last step, which phi closes where pairs exchange [m^3/s].
     """
 
     def __init__(self, particles: Particles, volume: Array) -> None:
@@ -202,7 +202,7 @@ class Transport:
         # F*, what it leaves in each particle, and the slopes of h and v
         self.find_flux(block)
         self.find_balance(block, kinds, ride.growth)
-        # phi that closes the balance, from that of the last step
+        # phi that closes the balance, from where the last two steps lead
         outcome = self._equation.solve(self._gathered, self._phi)
         outcome.refuse_above(LARGEST_RESIDUAL, "the balance of the fluxes")
         # F, and what pairs exchange by it
@@ -251,7 +251,8 @@ class Transport:
     def find_balance(
         self, block: RingBlock | RingTangentBlock, kinds: ParticleKinds, growth: Array
     ) -> None:
-        """Volume that would gather in each particle, and the slopes of h and v there."""
+        """Volume that would gather in each particle, the slopes of h and v there, and the first
+        guess of phi."""
         fields = self._pair_fields(block, self.v)
         fields |= {"flux_ij": self.flux, "h": block.gather(self.h), "C": block.correction}
         fields |= {"growth": growth, "measure": block.measure}
