@@ -104,6 +104,13 @@ BAD_CASES = {
     "unknown property": (MATERIAL, 'material = { base = "steel-304", colour = "3 m" }', ":2: material.colour: unknown key; leave it out"),
     "wrong property": (MATERIAL, 'material = { base = "steel-304", density = "3 m" }', ':2: material.density: "3 m" is a length, not a density; write e.g. "2700 kg/m^3"'),
     "hotter than melting": ('"20 degC"', '"2000 K"', ":3: initial_temperature: the initial temperature 2000 K is not below 1673 K, where melting of 'steel-304-demuth' begins"),
+    # tables of a law
+    "rows of a reflectivity": (FLUENCE, FLUENCE + '\nreflectivity = { rows = [["300 K", 0.3], ["2000 K", 0.2]] }', ':7: laser.reflectivity.rows: unknown key; do you mean "table"?'),
+    "rows of an absorptivity": (FLUENCE, FLUENCE + '\nabsorptivity = { lines = [["300 K", 0.3], ["2000 K", 0.2]], table = [["300 K", 0.3], ["2000 K", 0.2]] }', ":7: laser.absorptivity.lines: unknown key; known here: table, over_time, path"),
+    "a share above one in a table": (FLUENCE, FLUENCE + '\nreflectivity = { table = [["300 K", 0.3], ["2000 K", 1.2]] }', ":7: laser.reflectivity.table[2][2]: must be at most 1, got 1.2"),
+    "one row of a table": (FLUENCE, FLUENCE + '\nreflectivity = { table = [["300 K", 0.3]] }', ":7: laser.reflectivity.table: must have at least 2 entries, got 1"),
+    "half a row of a table": (FLUENCE, FLUENCE + '\nreflectivity = { table = [["300 K", 0.3], ["2000 K"]] }', ":7: laser.reflectivity.table[2][2]: missing; the row needs this entry, such as 1"),
+    "rows of particles": (SPACING, SPACING + "\nrows = 3", ":19: particles.rows: unknown key; known here: spacing, arrangement, fine_depth, fine_width, coarsest, ratio, kernel, support_ratio"),
     # domain, particles, time
     "no width": ('width = "5 um"\n', "", ':12: domain.width: missing for 2-D; write e.g. width = "5 um", a period of the light'),
     "width against period": ('width = "5 um"', 'width = "6 um"', ':14: domain.width: 6 um is no whole number of the pattern\'s periods of 5 um; write width = "5 um"'),

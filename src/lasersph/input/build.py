@@ -103,12 +103,16 @@ class _Trial:
             origins=dict(document.origins),
         )
         self._written: set[Path] = set()
+        self._shortened: set[Path] = set()
         self._values: set[str] = set()
         self._attempts: Counter[Path] = Counter()
 
     def concerns_reader(self, finding: Finding) -> bool:
         """Whether a mistake is the reader's: neither at a key nor about a value written here."""
-        # By place: at a key that was written here, or below it. By text: about its value.
+        # By place: at a key that was written here, or below it, or at an array that has lost a row
+        # here. By text: about its value.
+        if finding.path in self._shortened:
+            return False
         if any(finding.path[: len(path)] == path for path in self._written):
             return False
         text = f"{finding.foreign or ''}; {finding.problem}; {finding.hint}"
@@ -146,7 +150,10 @@ class _Trial:
         table = self._table(path[:-1])
         if table is None:
             return False
-        table[path[-1]] = value
+        try:
+            table[path[-1]] = value
+        except IndexError:  # a row that an earlier mending of the same round took out
+            return False
         self._written.add(path)
         # Short texts such as "x" would be found in every message.
         if isinstance(value, str) and len(value) > 2:
@@ -174,6 +181,8 @@ class _Trial:
             del around[path[-1]]
         except (KeyError, IndexError, TypeError):
             return False
+        if isinstance(around, list):
+            self._shortened.add(path[:-1])
         return True
 
     def _drop_emptied(self, finding: Finding) -> bool:

@@ -137,6 +137,8 @@ def _say(
     if kind in ("value_error", "assertion_error"):
         text, _, hint = str(context.get("error", error["msg"])).partition("; ")
         return [Finding(path, text, hint)]
+    if kind == "too_short" and len(document.at(path) or ()) >= context["min_length"]:
+        return []  # it counts the rows without mistakes
     if _EXPECTED.get(kind) == "a table":
         return [_no_table(path, given, document, schema)]
 
@@ -157,7 +159,11 @@ def _problem_with_value(kind: str, context: dict[str, Any], message: str, given:
         return f"must be {words} {shown}, got {given}"
     if kind in _EXPECTED:
         return f"must be {_EXPECTED[kind]}, got {given}"
-    if kind in ("too_short", "too_long", "string_too_short", "string_too_long"):
+    if kind in ("too_short", "too_long"):
+        limit = f"at least {context['min_length']}" if kind == "too_short" else ""
+        limit = limit or f"at most {context['max_length']}"
+        return f"must have {limit} entries, got {context['actual_length']}"
+    if kind in ("string_too_short", "string_too_long"):
         return message[0].lower() + message[1:]
     return message
 
@@ -169,6 +175,8 @@ def _missing(path: Path, example: Any) -> Finding:
     if isinstance(example, dict) and len(path) == 1:
         lines = [f"{key} = {as_toml(value)}" for key, value in example.items()]
         hint = f"write [{path[0]}] with {', '.join(lines)}" if lines else f"write [{path[0]}]"
+    elif example is not None and isinstance(path[-1], int):
+        hint = f"the row needs this entry, such as {as_toml(example)}"
     elif example is not None:
         hint = f"write {path[-1]} = {as_toml(example)}"
     return Finding(path, "missing", hint, value=example)
@@ -261,6 +269,9 @@ def place_of_unknown(path: Path, asked: Misplaced) -> tuple[str, Path | None]:
 
     # 2. Places where the key, or one spelt alike, is known.
     candidates = [_path_of(word, table) for word in keys.split()]
+    # rows are meant for the only key of a table
+    is_array = isinstance(document.at(path), list)
+    candidates += [(*table, known[0])] if is_array and len(known) == 1 else []
     candidates += [] if advice else _alike(key, table, asked)
 
     # 3. The first of them that the data leave free, and whose kind of quantity fits.
@@ -313,7 +324,8 @@ def _path_of(word: str, table: Path) -> Path:
 def _named(key: str, table: Path, asked: Misplaced) -> list[Path]:
     """Keys of that name in other tables: below the own table first, then outer ones.
 
-    The word that names the kind of a table elsewhere says nothing of this one.
+    The word that names the kind of a table elsewhere says nothing of this one, nor does a key of a
+    table within a table that the file does not have.
     """
     schema, data = asked.schema, asked.document.data
     same = [place for place in schema.places(data) if place[-1] == key and place[:-1] != table]
@@ -321,7 +333,9 @@ def _named(key: str, table: Path, asked: Misplaced) -> list[Path]:
     outer = [
         place
         for place in same
-        if place not in below and not any("const" in part for part in schema.parts(place, data))
+        if place not in below
+        and not any("const" in part for part in schema.parts(place, data))
+        and (len(place) <= 2 or asked.document.at(place[:-1]) is not None)
     ]
     return sorted(below, key=len) + sorted(outer, key=len)
 
@@ -338,7 +352,8 @@ def _is_of_other_kind(value: Any, target: Path, asked: Misplaced) -> bool:
 
 
 def _fits(path: Path, target: Path, asked: Misplaced) -> bool:
-    """Whether a table goes to a table and a value to a value, and not into a text or number."""
+    """Whether a table goes to a table, an array to an array and a value to a value, and not into a
+    text or number."""
     document, schema = asked.document, asked.schema
     # A place below the key itself, or inside a value, is no place.
     if path[: len(target)] == target:
@@ -347,5 +362,11 @@ def _fits(path: Path, target: Path, asked: Misplaced) -> bool:
         around = document.at(target[:length])
         if around is not None and not isinstance(around, dict):
             return False
-    is_table = isinstance(document.at(path), dict)
-    return schema.allows(target, document.data, table=is_table)
+    value = document.at(path)
+    return schema.allows(target, document.data, table=isinstance(value, dict)) and (
+        isinstance(value, list) == any(map(_is_array, schema.parts(target, document.data)))
+    )
+
+
+def _is_array(part: dict[str, Any]) -> bool:
+    return part.get("type") == "array"

@@ -32,7 +32,9 @@ class ReflectivityTable(Model):
     """
 
     table: tuple[tuple[Temperature, Share], ...] = Field(
-        min_length=2, description="rows of surface temperature and reflectivity"
+        min_length=2,
+        description="rows of surface temperature and reflectivity",
+        examples=[[["300 K", 0.7], ["1700 K", 0.6]]],
     )
 
     @model_validator(mode="after")
@@ -137,17 +139,21 @@ class AbsorptivityTable(Model):
         return float(shares @ np.interp(times, self.times, self.values) / shares.sum())
 
 
+NUMBER, TABLE = "a number", "a table"
+"""Names of both forms, which no key can have: they stand in the place of an error."""
+
+
 def _form(value: Any) -> str:
     is_table = isinstance(value, dict | ReflectivityTable | AbsorptivityTable)
-    return "rows" if is_table else "number"
+    return TABLE if is_table else NUMBER
 
 
 Reflectivity = Annotated[
-    Annotated[Share, Tag("number")] | Annotated[ReflectivityTable, Tag("rows")],
+    Annotated[Share, Tag(NUMBER)] | Annotated[ReflectivityTable, Tag(TABLE)],
     Discriminator(_form),
 ]
 Absorptivity = Annotated[
-    Annotated[Share, Tag("number")] | Annotated[AbsorptivityTable, Tag("rows")],
+    Annotated[Share, Tag(NUMBER)] | Annotated[AbsorptivityTable, Tag(TABLE)],
     Discriminator(_form),
 ]
 
