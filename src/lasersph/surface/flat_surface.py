@@ -146,7 +146,7 @@ class FlatSurface(Surface):
             T, gamma = surface_tension_table(material)
             self.table = {"T_nodes": backend.asarray(T), "gamma_nodes": backend.asarray(gamma)}
 
-    def kept_at_face(self, dummy: Array) -> Array:
+    def shifted_along(self, dummy: Array) -> Array:
         """Particles at the surface are shifted along it only."""
         return self.at_surface
 

@@ -203,8 +203,8 @@ class Surface:
         """`velocity_jump` as the divergence sees it."""
         return settled
 
-    def kept_at_face(self, dummy: Array) -> Array:
-        """(n,) 1 for particles that are shifted along a face only; dummy: (n,) 1 for dummies."""
+    def shifted_along(self, dummy: Array) -> Array:
+        """(n,) 1 for particles shifted along the surface only; dummy: (n,) 1 for dummies."""
         return dummy
 
     # the step, in the order of its calls

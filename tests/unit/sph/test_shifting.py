@@ -7,25 +7,46 @@ from lattices import lattice, with_neighbors
 from lasersph.sph.correction import kernel_gradient
 from lasersph.sph.shifting import repulsion_terms, shift
 
-UP = (0.0, 1.0)
-FREE = {"is_fluid": 1.0, "at_face": 0.0, "normal": np.array(UP), "scale": 0.1, "limit": 1e9}
+FAR = (-np.inf, -np.inf), (np.inf, np.inf)
+FREE = {
+    "is_fluid": 1.0,
+    "at_surface": 0.0,
+    "position": np.zeros(2),
+    "low": np.array(FAR[0]),
+    "high": np.array(FAR[1]),
+    "close_push": 1e9,
+    "scale": 0.1,
+    "limit": 1e9,
+}
 
 
-def shifts(backend, place, *, is_fluid=1.0, at_face=0.0, scale=0.04, limit=1e9, support=3.5):
-    """Shift of all particles at `place` [m]."""
+def shifts(
+    backend,
+    place,
+    *,
+    is_fluid=1.0,
+    at_surface=0.0,
+    between=FAR,
+    close_push=1e9,
+    scale=0.04,
+    limit=1e9,
+    support=3.5,
+):
+    """Shift of all particles at `place` [m]; `between` lower and upper places no wall is near."""
     count = place.shape[1]
     neighbors = with_neighbors(backend, place, support)
     fields = {
         "is_fluid": backend.asarray(np.full(count, is_fluid)),
-        "at_face": backend.asarray(np.full(count, at_face)),
+        "at_surface": backend.asarray(np.full(count, at_surface)),
+        "position": backend.asarray(place),
     }
     fields["G_ij"] = backend.zeros((place.shape[0], neighbors.neighbor.shape[0]))
     volume = {"V": backend.asarray(np.ones(count))}
     backend.pair_values(kernel_gradient, neighbors, volume, fields["G_ij"])
     out = backend.zeros((place.shape[0], count))
-    backend.pair_sum(
-        repulsion_terms, neighbors, fields, out, finish=shift, normal=UP, scale=scale, limit=limit
-    )
+    low, high = between
+    numbers = {"low": low, "high": high, "close_push": close_push, "scale": scale, "limit": limit}
+    backend.pair_sum(repulsion_terms, neighbors, fields, out, finish=shift, **numbers)
     return backend.to_host(out)
 
 
@@ -63,13 +84,34 @@ def test_two_close_particles(backend):
     assert found[0, [first, second]] == pytest.approx(0.0, abs=1e-15)
 
 
-def test_at_a_face(backend):
-    """No part along the normal; the part along the face is that of a free particle."""
+def test_at_a_surface(backend):
+    """No part along the normal; the part along the surface is that of a free particle."""
     place = lattice(2, 9) + np.random.default_rng(4).uniform(-0.2, 0.2, (2, 81))
-    free, bound = shifts(backend, place), shifts(backend, place, at_face=1.0)
+    free, bound = shifts(backend, place), shifts(backend, place, at_surface=1.0)
     assert np.all(bound[1] == 0.0)
     assert bound[0] == pytest.approx(free[0], rel=1e-12)
     assert np.abs(free[1]).max() > 1e-3
+
+
+def test_near_walls(backend):
+    """Near a wall at x = 0 nothing along x, near one at z = 8 nothing along z, all of it between;
+    in the corner no shift."""
+    place = lattice(2, 9) + np.random.default_rng(4).uniform(-0.2, 0.2, (2, 81))
+    free = shifts(backend, place)
+    found = shifts(backend, place, between=((3.0, -np.inf), (np.inf, 5.0)))
+    side, top = place[0] <= 3.0, place[1] >= 5.0
+    assert side.any() and top.any() and np.abs(free).min() > 0.0
+    assert np.array_equal(found[0], np.where(side, 0.0, free[0]))
+    assert np.array_equal(found[1], np.where(top, 0.0, free[1]))
+
+
+def test_close_at_a_wall():
+    """Neighbor at distance 2 along -x, beside a wall: pushed by 1/4 1/m^2, moved where that is more
+    than a close neighbor would push, not where it is less."""
+    terms = repulsion_terms(np.array([2.0, 0.0]), 2.0, np.array([-1.0, 0.0]))
+    beside = FREE | {"low": np.array([1.0, 0.0])}
+    assert shift(*terms, **beside | {"close_push": 1 / 5}).tolist() == [0.1, 0.0]
+    assert shift(*terms, **beside | {"close_push": 1 / 3}).tolist() == [0.0, 0.0]
 
 
 def test_limit_and_rest(backend):

@@ -169,6 +169,18 @@ class FaceConditions:
         """Velocity of a moving wall along itself [m/s]."""
         return self.flow.faces[face].velocity if self.flow is not None else 0.0
 
+    def away_from_walls(self, distance: float) -> tuple[tuple[float, ...], tuple[float, ...]]:
+        """Lower and upper places on each axis [m] between which no wall along which nothing slips
+        is nearer than a distance [m]; infinite where an axis ends otherwise."""
+        ends = list(zip(self.faces, self.box, strict=True))
+        low = tuple(z + distance if self._is_wall(name) else -np.inf for (name, _), (z, _) in ends)
+        high = tuple(z - distance if self._is_wall(name) else np.inf for (_, name), (_, z) in ends)
+        return low, high
+
+    def _is_wall(self, face: str) -> bool:
+        """Whether nothing slips along a face."""
+        return self.flow_kind(face) in WALLS
+
     def largest_wall_speed(self) -> float:
         """Largest speed of a wall [m/s]."""
         return max(abs(self.wall_velocity(face)) for pair in self.faces for face in pair)
@@ -188,7 +200,7 @@ class FaceConditions:
             **{name: np.zeros(shape[1]) for name in numbers},
         )
         for one in self._crossings(ghost_types):
-            if self.flow_kind(one.face) in WALLS:
+            if self._is_wall(one.face):
                 rules.sticks[one.axis, one.types] = 1.0
             if self.flow_kind(one.face) in FREE:
                 rules.stressed[one.types] = 1.0
@@ -275,7 +287,7 @@ class FaceConditions:
         particles. Half of the leak remains, which shrinks with the spacing.
         """
         factor, added = ghost_types.sign.copy(), np.zeros(ghost_types.sign.shape)
-        walls = [one for one in self._crossings(ghost_types) if self.flow_kind(one.face) in WALLS]
+        walls = [one for one in self._crossings(ghost_types) if self._is_wall(one.face)]
         has_one_wall = np.sum([one.types for one in walls], axis=0) == 1
         # components along walls, and what a wall that moves along x or up adds to them
         for one in walls:

@@ -69,14 +69,7 @@ class MeltPool:
         # what a step moves, and how: x*, kinds, shifts, and pairs that conduct
         self._advected, self._depth = backend.zeros(self.position.shape), backend.zeros(count)
         self.kinds = ParticleKinds(self.particles, domain.spacing, is_box=domain.is_box)
-        self.shifting = ParticleShifting(
-            backend,
-            count,
-            settings.shifting,
-            domain.spacing,
-            domain.bounds,
-            domain.conditions.periods,
-        )
+        self.shifting = ParticleShifting(backend, count, settings.shifting, domain)
         self.pairs = HeatPairs(heat.body)
         # faces book heat at the potential that the implicit step ends with
         scheme = heat.scheme
@@ -300,11 +293,11 @@ class MeltPool:
         """Displacements that keep the density of particles even (73), and velocity and enthalpy at
         the shifted positions (74), (75)."""
         surface, flow, kinds = self.domain.surface, self.flow, self.kinds
-        # particles at a face move along it alone; the shift scales with speed times step
-        at_face = surface.kept_at_face(kinds.dummy)
+        # particles at a surface move along it alone; the shift scales with speed times step
+        at_surface = surface.shifted_along(kinds.dummy)
         speed = max(flow.largest_speed, self.domain.conditions.largest_wall_speed())
         scale = self.shifting.factor * speed * step
-        found = self.shifting.rearrange(flow, kinds, self.particles, at_face, scale)
+        found = self.shifting.rearrange(flow, kinds, self.particles, at_surface, scale)
         (added,) = found or (0.0,)
         self.state.energy["shifting"] += added
         # no shift leaves the melt, and T follows the adjusted h

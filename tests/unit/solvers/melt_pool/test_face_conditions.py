@@ -125,6 +125,14 @@ def test_periodic_pool():
     assert conditions.ghost_faces(FLAT, has_bottom=False)[0].lower_kind == PERIODIC
 
 
+def test_away_from_walls():
+    """The distance inside walls that rest or move; planes along which melt slips are no such."""
+    wall = {"kind": "moving-wall", "velocity": 1.0}
+    found = conditions_of(surface=wall, left="no-slip", right="free-slip", bottom="symmetry")
+    (x, _), (_, z) = BOX
+    assert found.away_from_walls(0.25) == ((x + 0.25, -np.inf), (np.inf, z - 0.25))
+
+
 def test_largest_wall_speed():
     """The largest speed, whatever its sign."""
     wall = {"kind": "moving-wall", "velocity": -5.0}

@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 from flow_boxes import PERIODIC, PERIODIC_HEAT, block_of, box, jittered, place_of, start_from
 
+from lasersph.boundaries import Boundaries
+from lasersph.solvers.melt_pool.face_conditions import FaceConditions
 from lasersph.solvers.melt_pool.particle_shifting import (
     MAX_SHIFT,
     MIN_FACE_DISTANCE,
@@ -216,7 +218,7 @@ def test_largest_shift():
     place = jittered(solver, 0.45)
     block = block_of(solver, place)
     nothing = solver.backend.zeros(solver.body.count)
-    solver.shifting.shift(block, solver.kinds, nothing, 0.5)
+    solver.shifting.shift(block, solver.kinds, solver.position, nothing, 0.5)
     size = np.linalg.norm(solver.backend.to_host(solver.shifting.displacement), axis=0)
     assert size.max() == pytest.approx(MAX_SHIFT * 0.1)
 
@@ -243,7 +245,12 @@ def test_without_shifting():
 
 def test_shifting_needs_no_block_to_move(backend):
     """Positions alone: two particles in a periodic strip."""
-    shifting = ParticleShifting(backend, 2, 0.04, 0.1, ((0.0, 1.0), (-1.0, 0.0)), (1.0, 0.0))
+
+    class Strip:
+        spacing, support, bounds = 0.1, 0.31, ((0.0, 1.0), (-1.0, 0.0))
+        conditions = FaceConditions(bounds, Boundaries(sides="periodic"), None, 300.0)
+
+    shifting = ParticleShifting(backend, 2, 0.04, Strip)
     position = backend.asarray([[1.05, 0.5], [-0.5, 0.2]])
 
     class Flowing:
