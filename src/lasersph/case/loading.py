@@ -11,13 +11,17 @@ from typing import TypeVar
 from lasersph.case.case import Case
 from lasersph.case.contents import SCHEMA_VERSION, CaseContents
 from lasersph.case.conversion import convert
-from lasersph.case.overrides import moved_settings, override
+from lasersph.case.overrides import moved_settings, named_files, override
 from lasersph.input import CaseError, Document, Problem, build, nearest, read_toml
-from lasersph.input.document import with_settings
-from lasersph.input.findings import steps_of
+from lasersph.input.document import split_settings, with_settings
+from lasersph.input.findings import dotted, steps_of
 
 M = TypeVar("M", bound=CaseContents)
 LIBRARY = Path(__file__).parent / "cases"
+CASE_FILE = "case.toml"
+"""File of a run folder with the case and, in its first lines, the settings of the run."""
+MOST_SETTINGS = 3
+"""Settings that are named before a problem. Format: four fill a line."""
 
 
 def available_cases() -> dict[str, Path]:
@@ -31,7 +35,7 @@ def available_cases() -> dict[str, Path]:
 
 
 def case_file(name_or_path: str | os.PathLike[str]) -> Path:
-    """File of a case given by its shipped name or by a path.
+    """File of a case given by its shipped name, by a path, or by the folder of its run.
 
     A shipped name is recognized first, unless it ends in ".toml" or holds a path separator.
 
@@ -48,6 +52,8 @@ def case_file(name_or_path: str | os.PathLike[str]) -> Path:
         exists = path.exists()
     except (OSError, ValueError):
         exists = False
+    if exists and (path / CASE_FILE).is_file():
+        return path / CASE_FILE
     if exists or text.endswith(".toml") or os.sep in text:
         return path
     # Neither: the nearest shipped name, or all of them.
@@ -57,20 +63,27 @@ def case_file(name_or_path: str | os.PathLike[str]) -> Path:
 
 
 class CaseFile:
-    """A case file or a shipped case, read once: cases of it differ by their overrides.
+    """A case file, a shipped case or that of a run folder, read once: cases of it differ by their
+    overrides.
 
     Attributes:
-        document: its data, not yet validated, keys at their present places.
+        document: its data, not yet validated, keys at their present places. name: of the case.
     """
 
     def __init__(self, name_or_path: str | os.PathLike[str]) -> None:
-        self.document, moved = convert(read_toml(case_file(name_or_path), tolerant=True))
+        file = case_file(name_or_path)
+        document, self._moved = convert(read_toml(file, tolerant=True))
+        self.name, self._settings = file.stem, list[str]()
+        # A run folder stands for its case with the settings of the run.
+        if file != Path(name_or_path).expanduser() and file.name == CASE_FILE:
+            self.name = file.absolute().parent.name
+            self._settings, text = split_settings(document.text)
+            document = override(replace(document, text=text), self._settings)
+        self.document = document
         # A plan names a case; the verbs for many runs read it.
         if "case" in self.document.data and "particles" not in self.document.data:
-            file = self.document.file
-            right = f"lasersph sweep, calibrate or find {file} computes it"
-            raise CaseError("is a plan for many runs, not a case", right, file=file)
-        self._moved = moved
+            right = f"lasersph sweep, calibrate or find {document.file} computes it"
+            raise CaseError("is a plan for many runs, not a case", right, file=document.file)
 
     def contents(self, overrides: Sequence[str] = ()) -> CaseContents:
         """The keys of a case, each right by itself, not checked together. Raises CaseError."""
@@ -85,20 +98,17 @@ class CaseFile:
         case = self._built(Case, overrides)
         moved = [*self._moved, *moved_settings(overrides)]
         note = f"read as schema version {SCHEMA_VERSION}: {', '.join(moved)}" if moved else ""
-        text = with_settings(self.document.text, [*self._files(), *overrides])
-        return case.named(Path(self.document.file).stem, text, note)
+        settings = [*self._settings, *overrides, *self._files(override(self.document, overrides))]
+        return case.named(self.name, with_settings(self.document.text, settings), note)
 
-    def _files(self) -> Iterator[str]:
-        """Settings that name the files beside this one by their whole paths: what is kept of the
-        case is read in another folder."""
-        folder = Path(self.document.file).absolute().parent
-        for path in (("material",), ("laser", "spot", "image")):
-            name = self.document.at(path)
-            is_name = not isinstance(name, str) or not (Path(name).suffix or "/" in name)
-            if is_name or name.startswith(("/", "~")):
-                continue
-            if (folder / name).is_file():
-                yield f"{'.'.join(path)}={folder / name}"
+    def _files(self, document: Document) -> Iterator[str]:
+        """Settings that name files beside the case, or given by settings, by their whole paths:
+        what is kept of the case is read elsewhere."""
+        folder = Path(document.file).absolute().parent
+        for path, name in named_files((), document.data):
+            is_beside = not name.startswith(("/", "~")) and (folder / name).is_file()
+            if is_beside or name != self.document.at(path):
+                yield f"{dotted(path)}={folder / name}"
 
     def _built(self, model: type[M], overrides: Sequence[str]) -> M:
         document = override(self.document, overrides)
@@ -122,13 +132,14 @@ class CaseFile:
 
 def _blamed(problem: Problem, document: Document) -> Problem:
     """A problem at a line of a file that is right by itself, with the settings that make it wrong:
-    those within the table of the problem, or all."""
+    those within the table of the problem, or all; their number where they are many."""
     if problem.file != document.file:
         return problem
     table = steps_of(problem.key)
     within = [where for path, where in document.origins.items() if path[: len(table)] == table]
-    settings = ", ".join(dict.fromkeys(within or document.origins.values()))
-    return replace(problem, file=f"{settings} on {problem.file}")
+    settings = list(dict.fromkeys(within or document.origins.values()))
+    shown = ", ".join(settings) if len(settings) <= MOST_SETTINGS else f"{len(settings)} settings"
+    return replace(problem, file=f"{shown} on {problem.file}")
 
 
 def _other_words() -> Mapping[str, str]:

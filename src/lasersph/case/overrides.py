@@ -2,7 +2,7 @@
 
 The value is read as TOML, and where it is none as plain text (`16nm`, `0.8 J/cm^2`). An empty
 value removes the key. Later overrides win. Elements of arrays of tables count from 1:
-`probes[1].depth=2um`.
+`probes[1].depth=2um`. Files that a value names count from the folder where the command runs.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from __future__ import annotations
 import copy
 import re
 import tomllib
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -33,10 +33,7 @@ def override(document: Document, settings: Iterable[str]) -> Document:
         # The key as it is named today; files named on the command line lie where it runs.
         path, value = _parse(setting, where)
         path = present_place(path)
-        if path == ("material",) and isinstance(value, str):
-            value = _from_here(value)
-        if path == ("laser", "spot", "image") and isinstance(value, str):
-            value = str(Path(value).expanduser().absolute())
+        value = from_folder(path, value, Path())
         _put(data, path, value, where)
         origins[path] = where
     return replace(document, data=data, origins=origins)
@@ -79,10 +76,30 @@ def _value(text: str) -> Any:
     return read["value"] if list(read) == ["value"] else text
 
 
-def _from_here(name: str) -> str:
-    """A material file named on the command line is relative to where the command runs."""
-    is_path = name.endswith(".toml") or "/" in name
-    return str(Path(name).expanduser().absolute()) if is_path else name
+def from_folder(path: tuple[str | int, ...], value: Any, folder: Path) -> Any:
+    """A value whose files, counted from a folder, are named by their whole paths."""
+    if isinstance(value, dict):
+        return {key: from_folder((*path, key), one, folder) for key, one in value.items()}
+    if isinstance(value, str) and value and names_file(path, value):
+        return str((folder / Path(value).expanduser()).absolute())
+    return value
+
+
+def named_files(path: tuple[str | int, ...], value: Any) -> Iterator[tuple[tuple[Any, ...], str]]:
+    """Keys at a path and below it whose values name files, and these."""
+    if isinstance(value, dict):
+        for key, one in value.items():
+            yield from named_files((*path, key), one)
+    elif isinstance(value, str) and value and names_file(path, value):
+        yield path, value
+
+
+def names_file(path: tuple[str | int, ...], value: str) -> bool:
+    """Whether the text at a key names a file: `path` of a table, the image of a spot, a material
+    that is no name."""
+    if path in (("material",), ("material", "base")):
+        return value.endswith(".toml") or "/" in value
+    return path[-1] == "path" or path == ("laser", "spot", "image")
 
 
 def _put(data: Any, path: tuple[str | int, ...], value: Any, where: str) -> None:

@@ -31,7 +31,7 @@ CaseName = Annotated[
     str,
     typer.Argument(
         metavar="CASE",
-        help="A case file, or the name of a shipped case.",
+        help="A case file, the name of a shipped case, or a run folder: its case and settings.",
         autocompletion=completion_of("case", "available_cases"),
     ),
 ]

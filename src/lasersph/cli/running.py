@@ -119,7 +119,7 @@ def run(
 
     # Inputs of --uncertain, the folder, and the command that would go on after a signal.
     inputs = _uncertain_inputs(loaded, uncertain or (), wanted=uncertainty)
-    folder = out or RUNS / loaded.name
+    folder = out or (Path(case) if resume and Path(case).is_dir() else RUNS / loaded.name)
     again = command_of(
         *("run", case),
         out=folder,

@@ -5,12 +5,13 @@
 
 after [Xu2009]; n_ij points from j to i. On a lattice R is zero. C lies between 0.01 and 0.1.
 
-No particle is moved along the normal of a flat surface when in its first row, nor of a wall along
-which nothing slips when images beyond it are among the neighbors: their repulsion has a mean, away
-from the wall; the flow brings the particles back, each time with the velocity from farther out, so
-that less of a lid is felt. In the cavity at Re 400 with 50 a side the extrema of the speeds are 4.5
-to 6.4 % too small with such shifts, 1.4 to 3.7 % without. Only a particle with another close to it
-is moved all the same, so that no two meet.
+No particle in the first row at a face is moved along its normal: at a flat surface, and at a wall
+along which nothing slips. Its own image pushes it away; the flow brings it back, each time with the
+velocity from farther out, so that less of a lid is felt. In the cavity at Re 400 with 50 a side the
+extrema of the speeds are 4.5 to 6.4 % too small with such shifts, 2.3 to 4.1 % without (1.4 to 3.7
+where none is made within a support of a wall, but particles lie less evenly there, and the heat
+that a box carries errs more). Only a particle with another close to it is moved all the same, so
+that no two meet.
 """
 
 from __future__ import annotations

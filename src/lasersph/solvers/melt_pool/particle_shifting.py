@@ -157,7 +157,7 @@ class ParticleShifting:
     def __init__(self, backend: Backend, count: int, factor: float, domain: PoolDomain) -> None:
         self.backend, self.factor, self.spacing = backend, factor, domain.spacing
         self.box, self.periods = domain.bounds, domain.conditions.periods
-        self._away_from_walls = domain.conditions.away_from_walls(domain.support)
+        self._away_from_walls = domain.conditions.away_from_walls(domain.spacing)
         vectors = (len(self.box), count)
         self.displacement, self._v = backend.zeros(vectors), backend.zeros(vectors)
         self._up, self._down = backend.zeros(count), backend.zeros(count)
