@@ -95,6 +95,7 @@ def run(
     """Compute a case; the run folder then holds history, summary, particles, figures, report."""
     from lasersph.case import load_case
     from lasersph.cli.progress import WarningsOnce
+    from lasersph.output.run_folder import is_untouched
     from lasersph.simulation.acceptance import refuse_unresolved
     from lasersph.simulation.recipes import recipe_of
 
@@ -113,13 +114,15 @@ def run(
         )
     refuse_workers(engine, backend, precision)
 
-    # Too coarse for its flow: --quick is known to be, and --anyway says that it may.
-    if not quick and not anyway:
+    # Too coarse for its flow: --quick is known to be, --anyway says that it may, and a run that
+    # goes on has begun so.
+    folder = out or (Path(case) if resume and Path(case).is_dir() else RUNS / loaded.name)
+    goes_on = resume and not is_untouched(folder)
+    if not (quick or anyway or goes_on):
         refuse_unresolved(recipe_of(loaded).flow)
 
-    # Inputs of --uncertain, the folder, and the command that would go on after a signal.
+    # Inputs of --uncertain, and the command that would go on after a signal.
     inputs = _uncertain_inputs(loaded, uncertain or (), wanted=uncertainty)
-    folder = out or (Path(case) if resume and Path(case).is_dir() else RUNS / loaded.name)
     again = command_of(
         *("run", case),
         out=folder,

@@ -17,7 +17,6 @@ from itertools import count
 from pathlib import Path
 from typing import BinaryIO
 
-from lasersph.input.document import split_settings
 from lasersph.output import OutputError
 from lasersph.output.folder_lock import NAME, is_computing, machine, read_owner
 from lasersph.web.case_source import CaseSource
@@ -68,9 +67,8 @@ class Processes:
         """Go on with a run that was stopped. Raises OutputError where that did not start."""
         if is_computing(folder):
             raise OutputError("the run is computed already")
-        # The case as it was started, with its settings.
-        settings, _ = split_settings((folder / "case.toml").read_text(encoding="utf-8"))
-        self._run(folder, [str(folder / "case.toml"), *_options(settings), "--resume"])
+        # The folder stands for the case as it was started, with its settings.
+        self._run(folder, [str(folder), "--resume"])
 
     def stop(self, folder: Path) -> None:
         """Ask the process that computes in a folder to end with a checkpoint.
