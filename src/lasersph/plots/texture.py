@@ -61,8 +61,8 @@ def texture_figure(maps: Maps, content: dict[str, Any]) -> Figure:
     found = content["areal_parameters"]
     sizes = ", ".join(f"{n} {format_quantity(found[n], 'm', 3)}" for n in ("Sa", "Sq", "Sz"))
     first.set_title(
-        f"ISO 25178: {sizes}, Ssk {found['Ssk']:.2g}, Sdr {100.0 * found['Sdr']:.2g} %;  band: "
-        "error of the interpolation",
+        f"ISO 25178: {sizes}, Ssk {found['Ssk']:.2g}, Sdr {100.0 * found['Sdr']:.2g} %\n"
+        "band: error of the interpolation",
         fontsize=9,
         loc="left",
     )
