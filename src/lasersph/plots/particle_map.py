@@ -191,12 +191,13 @@ def cells_of_cut(step: Snapshot, depth: float) -> Cells:
 
 
 def in_cut(step: Snapshot, cells: np.ndarray) -> np.ndarray:
-    """Which of some cells of a 3-D snapshot the plane just beyond y = 0 passes through.
+    """Which of some cells of a 3-D snapshot lie within their width of the plane just beyond y = 0.
 
-    Just beyond, because layers with an even number of rows have a face at y = 0.
+    Just beyond, because layers with an even number of rows have a face at y = 0. Within their
+    width, because particles that flow leave places on the plane to which others are closest.
     """
     y, width = step["position"][1, cells], step["width"][1, cells]
-    return np.abs(y - 1e-3 * np.min(width)) < 0.5 * width
+    return np.abs(y - 1e-3 * np.min(width)) < width
 
 
 def depth_profile(step: Snapshot, depth: float, corners: dict[str, Any]) -> Figure:
