@@ -17,6 +17,9 @@ from lasersph.plots.surface_maps import edges
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+MAP_WIDTH, HIGHEST = 2.2, 4.0
+"""Width of a map, and how high one may be [inches]. Format: two beside each other with color bars
+fill a page."""
 COLORS = {
     "height": "RdBu_r",
     "speed": style.SPEED_COLORS,
@@ -44,7 +47,10 @@ def surface_frames(run: Run, times: np.ndarray) -> Iterator[Figure]:
         "temperature": (min(heat), max(heat)),
     }
     names = {shown: f"{shown} [{up.name}]", "temperature": "temperature [K]"}
-    figure, panels = style.new_figure(1, 2, height=3.4)
+    # as high as two maps side by side are, so that the color bars are not higher
+    left, right, lower, upper = edges(first)
+    height = MAP_WIDTH * (upper - lower) / (right - left)
+    figure, panels = style.new_figure(1, 2, height=round(min(height, HIGHEST) + 0.8, 1))
     images = []
     for axes, name in zip(panels, names, strict=True):
         low, high = ends[name]
