@@ -42,7 +42,7 @@ def surface_height_map(run: RunOrFolder) -> Figure | None:
     relief = run.relief()
     up = style.fitting_unit("m", largest(relief.z))
     z = relief.z * up.factor
-    limit = largest(z)
+    limit = largest(relief.z) * up.factor
     # Zero in the middle of the colors: pits and rims are told apart.
     figure, axes, unit = _painted(
         relief, z, f"height [{up.name}]", cmap="RdBu_r", vmin=-limit, vmax=limit
