@@ -81,7 +81,7 @@ def info(folder: RunFolder) -> None:
     _print_tables(known, _curves(found))
     _print_warnings(warning_texts(None, found.events))
     _print_note_on_older(found)
-    print(f"{folder}: not complete; continue it with lasersph run {folder} --resume")
+    print(f"{folder}: not complete; continue it with lasersph run {folder}/ --resume")
 
 
 def _print_tables(numbers: list[tuple[str, str]], curves: list[tuple[str, str]]) -> None:
