@@ -87,15 +87,27 @@ def enthalpy_update(backend: Backend, count: int) -> HotLoop:
 def shifting(backend: Backend, neighbors: NeighborList) -> HotLoop:
     """Displacement that keeps particles from clustering."""
     dimension, count = shape_of(neighbors)
-    fields = {name: backend.asarray(np.ones(count)) for name in ("is_fluid", "at_face")}
+    fields = {name: backend.asarray(np.ones(count)) for name in ("is_fluid", "at_surface")}
+    fields["position"] = backend.zeros((dimension, count))
     fields["G_ij"] = backend.zeros((dimension, neighbors.neighbor.shape[0]))
     volume = {"V": backend.asarray(np.ones(count))}
     backend.pair_values(kernel_gradient, neighbors, volume, fields["G_ij"])
-    out, normal = backend.zeros((dimension, count)), (0.0,) * (dimension - 1) + (1.0,)
+    out = backend.zeros((dimension, count))
+    low, high = (-1.0,) * dimension, (1.0,) * dimension
 
     def run() -> int:
-        constants = {"normal": normal, "scale": 0.01, "limit": 0.1}
-        backend.pair_sum(repulsion_terms, neighbors, fields, out, finish=shift, **constants)
+        backend.pair_sum(
+            repulsion_terms,
+            neighbors,
+            fields,
+            out,
+            finish=shift,
+            low=low,
+            high=high,
+            close_push=3.0,
+            scale=0.01,
+            limit=0.1,
+        )
         return 1
 
     return HotLoop(f"shifting {dimension}-D", count, run)
