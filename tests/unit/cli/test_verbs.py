@@ -353,9 +353,7 @@ def test_signals_stop_a_run_that_can_be_resumed(number, code, capsys):
     assert process.returncode == code, error
     assert "continue with: lasersph run stefan --out out --resume" in error
     assert any(Path("out/checkpoint").iterdir())
-    assert "not complete; continue it with lasersph run out/ --resume" in said(
-        capsys, "info", "out"
-    )
+    assert "continue it with lasersph run out/ --resume" in said(capsys, "info", "out")
 
 
 @pytest.mark.parametrize(
