@@ -33,7 +33,7 @@ def override(document: Document, settings: Iterable[str]) -> Document:
         # The key as it is named today; files named on the command line lie where it runs.
         path, value = _parse(setting, where)
         path = present_place(path)
-        value = from_folder(path, value, Path())
+        value = from_here(path, value)
         _put(data, path, value, where)
         origins[path] = where
     return replace(document, data=data, origins=origins)
@@ -76,12 +76,12 @@ def _value(text: str) -> Any:
     return read["value"] if list(read) == ["value"] else text
 
 
-def from_folder(path: tuple[str | int, ...], value: Any, folder: Path) -> Any:
-    """A value whose files, counted from a folder, are named by their whole paths."""
+def from_here(path: tuple[str | int, ...], value: Any) -> Any:
+    """A value whose files, counted from where the command runs, are named by their whole paths."""
     if isinstance(value, dict):
-        return {key: from_folder((*path, key), one, folder) for key, one in value.items()}
+        return {key: from_here((*path, key), one) for key, one in value.items()}
     if isinstance(value, str) and value and names_file(path, value):
-        return str((folder / Path(value).expanduser()).absolute())
+        return str(Path(value).expanduser().absolute())
     return value
 
 
