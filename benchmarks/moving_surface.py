@@ -12,7 +12,10 @@ too, so that time per step and per nanosecond are told apart.
 from __future__ import annotations
 
 import argparse
+import os
 from time import process_time
+
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # as the command line has it
 
 from lasersph import compute, load_case
 from lasersph.simulation.recipes import recipe_of

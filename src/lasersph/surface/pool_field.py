@@ -21,6 +21,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from lasersph.linear_solvers.banded import BandedFactors, factorize
 from lasersph.surface.column_axis import RING, ColumnAxis
 from lasersph.surface.height_field import (
     FIRST,
@@ -40,7 +41,6 @@ from lasersph.surface.smoothing import (
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_matrix
-    from scipy.sparse.linalg import SuperLU
 
 Array = NDArray[np.float64]
 Numbers = NDArray[np.int64]
@@ -97,7 +97,7 @@ class PoolField:
         self._pins = self._rim_sides()
         self.rim = self._pins[0]
         self.at_pins = self.wall_heights = self._heights_at_walls()
-        self._factors: dict[tuple[Parity, bool], tuple[csr_matrix, csr_matrix, SuperLU]] = {}
+        self._factors: dict[tuple[Parity, bool], Factors] = {}
 
     @property
     def places(self) -> tuple[Array, ...]:
@@ -293,23 +293,20 @@ class PoolField:
         key = parity, pins is not None
         if key not in self._factors:
             self._factors[key] = self._matrices(parity, passes_pins=pins is not None)
-        A, P, inverse = self._factors[key]
+        A, P, factors = self._factors[key]
         right = np.zeros(self.size)
         right[: self.count] = values
         if pins is not None:
             right += PIN_WEIGHT * (P.T @ pins)
-        f = inverse.solve(right)
+        f = factors.solve(right)
         # iterative refinement: each pass solves for the residual of the one before
         for _ in range(REFINEMENTS):
-            f = f + inverse.solve(right - A @ f)
+            f = f + factors.solve(right - A @ f)
         return f
 
-    def _matrices(
-        self, parity: Parity, *, passes_pins: bool
-    ) -> tuple[csr_matrix, csr_matrix, SuperLU]:
+    def _matrices(self, parity: Parity, *, passes_pins: bool) -> Factors:
         """Matrix of the normal equations, that of the values at the rim, and factors."""
         from scipy.sparse import diags  # few runs have a grid of columns
-        from scipy.sparse.linalg import splu
 
         weight = np.full(self.size, RING_WEIGHT)
         weight[: self.count] = 1.0
@@ -318,11 +315,16 @@ class PoolField:
         A = diags(weight).tocsr() + D.T @ D
         if passes_pins:
             A = A + PIN_WEIGHT * (P.T @ P)
-        options = {"SymmetricMode": True}
-        factors = splu(
-            A.tocsc(), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options=options
-        )
-        return A, P, factors
+        return Factors(A, P, factorize(A))
+
+
+class Factors(NamedTuple):
+    """Matrix A (size, size) of the normal equations, P (sides, size) of the values at the rim, and
+    factors of A."""
+
+    A: csr_matrix
+    P: csr_matrix
+    factors: BandedFactors
 
 
 class SignedRows(NamedTuple):
