@@ -46,6 +46,11 @@ def reynolds_number(speed: float, length: float, kinematic_viscosity: float) -> 
     return speed * length / kinematic_viscosity
 
 
+def peclet_number(speed: float, length: float, diffusivity: float) -> float:
+    """Pe = U L / a = Re Pr; speed U [m/s], diffusivity a [m^2/s]."""
+    return speed * length / diffusivity
+
+
 def prandtl_number(kinematic_viscosity: float, diffusivity: float) -> float:
     """Pr = nu / a, eq. (23)."""
     return kinematic_viscosity / diffusivity

@@ -10,10 +10,10 @@ from lasersph.case.checks import refuse_if_too_large
 from lasersph.case.size import Size
 from lasersph.case.solver_choice import computes_flow
 from lasersph.compute.threads import chosen
-from lasersph.input import CaseError, format_quantity
+from lasersph.input import CaseError
 from lasersph.simulation.forecast import Forecast, forecast
 from lasersph.simulation.recipes import Recipe
-from lasersph.simulation.recipes.recipe import FEWEST_ROWS, FlowForecast
+from lasersph.simulation.recipes.recipe import FEWEST_ROWS, FlowForecast, resolving_spacing
 
 ANYWAY = "or start it all the same: lasersph run --anyway, anyway=True in Python"
 
@@ -59,7 +59,7 @@ def refuse_unresolved(flow: FlowForecast | None) -> None:
     """
     if flow is None or not flow.unresolved:
         return
-    finer = format_quantity(min(flow.layers.values()) / FEWEST_ROWS, "m", 2)
+    finer = resolving_spacing(min(flow.layers.values()), FEWEST_ROWS)
     raise CaseError(
         "; ".join(flow.unresolved),
         f'write spacing = "{finer}" or less, {ANYWAY}; --quick says it itself',

@@ -8,7 +8,7 @@ from math import isfinite
 from lasersph.case import Case
 from lasersph.case.size import in_words, memories
 from lasersph.case.solver_choice import has_two_temperatures
-from lasersph.input import format_duration, format_quantity
+from lasersph.input import format_duration, format_number, format_quantity
 from lasersph.input.text_table import text_table
 from lasersph.materials.viscosity import viscosity_text
 from lasersph.physics.ablation_estimates import skin_fluence
@@ -117,9 +117,9 @@ def _rows(expected: Forecast) -> list[tuple[str, str]]:
         rows.append(("with half the spacing", text))
     if expected.flow is not None:
         rows.append(("viscosity of the melt", viscosity_text(case.material)))
-        rows.append(("expected speed", f"up to about {expected.flow.speed:.2g} m/s"))
+        rows.append(("expected speed", f"up to about {format_number(expected.flow.speed, 2)} m/s"))
         if numbers := expected.flow.numbers:
-            text = ", ".join(f"{name} {value:.2g}" for name, value in numbers.items())
+            text = ", ".join(f"{name} {format_number(value, 2)}" for name, value in numbers.items())
             rows.append(("numbers of the pool", text))
 
     # Short pulses: what would vaporize the skin that the light heats at first.
@@ -134,7 +134,7 @@ def _rows(expected: Forecast) -> list[tuple[str, str]]:
         ("thermal penetration", expected.penetration),
     ):
         if length:
-            cells = f"{length / expected.spacing:.2g} spacings"
+            cells = f"{format_number(length / expected.spacing, 2)} spacings"
             rows.append((name, f"{format_quantity(length, 'm')}, {cells}"))
     return rows
 

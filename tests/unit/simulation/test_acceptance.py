@@ -69,7 +69,7 @@ def test_too_coarse_for_its_flow(capsys, tmp_path):
     said = capsys.readouterr().err
     assert "particles.spacing: the viscous layer of the pool is about" in said
     assert "the speed of the surface will be off; the thermal layer" in said
-    assert 'write spacing = "1.8 um" or less, or start it all the same: lasersph run --any' in said
+    assert 'write spacing = "3.8 um" or less, or start it all the same: lasersph run --any' in said
     assert not folder.exists()
     assert main(["check", "spot-weld", *coarse]) == 0
     assert "lasersph run asks for --anyway or --quick" in capsys.readouterr().out
@@ -94,8 +94,10 @@ def test_as_coarse_as_the_user_says(flag, tmp_path, capsys):
 
 
 def test_resolved_flow_is_not_refused():
-    """Shipped textures, and what has no flow."""
+    """Shipped textures and spots, and what has no flow."""
     for name in ("texture-steel", "texture-aluminium", "dlip-steel", "spot-steel", "stefan"):
         refuse_unresolved(recipe_of(lasersph.load_case(name)).flow)
+    refuse_unresolved(recipe_of(lasersph.load_case("spot-weld")).flow)
     with pytest.raises(lasersph.CaseError, match="will be off"):
-        refuse_unresolved(recipe_of(lasersph.load_case("spot-weld")).flow)
+        coarse = lasersph.load_case("spot-weld", ["particles.spacing=12um"])
+        refuse_unresolved(recipe_of(coarse).flow)

@@ -121,7 +121,8 @@ def test_check_names_the_key_and_what_is_right(browser):
 
 def test_case_that_is_too_coarse_for_its_flow_is_not_started(browser):
     """As `lasersph run` without --anyway."""
-    (problem,) = browser.post("/api/check", json=asked("spot-weld")).json()["problems"]
+    coarse = asked("spot-weld", ["particles.spacing=12 um"])
+    (problem,) = browser.post("/api/check", json=coarse).json()["problems"]
     assert problem["key"] == "particles.spacing" and "will be off" in problem["text"]
 
 

@@ -10,12 +10,13 @@ from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from math import ceil
+from math import ceil, floor, log10
 from typing import Any, ClassVar, Generic, NamedTuple, TypeVar, cast
 
 from lasersph.analytic.melt_depth import MeltEstimate
 from lasersph.case import Case
 from lasersph.compute.backend import Backend
+from lasersph.input import format_quantity
 from lasersph.materials.caloric_curve import CaloricCurve
 from lasersph.observers import Observers
 from lasersph.observers.pulses import Pulses
@@ -93,6 +94,14 @@ class FlowForecast:
     numbers: dict[str, float] = field(default_factory=dict)
     layers: dict[str, float] = field(default_factory=dict)
     unresolved: tuple[str, ...] = ()
+
+
+def resolving_spacing(layer: float, rows: float) -> str:
+    """Spacing that puts at least so many rows into a layer [m], as text of two digits."""
+    spacing = layer / rows
+    # rounded down, so that the rows fit
+    digit = 10.0 ** (floor(log10(spacing)) - 1)
+    return format_quantity(digit * floor(spacing / digit), "m", 2)
 
 
 class Recipe(ABC, Generic[SettingsT, SolverT]):

@@ -25,7 +25,7 @@ from lasersph.boundaries.settings import DIRICHLET
 from lasersph.case import Case
 from lasersph.input import format_quantity
 from lasersph.particles.layers import Layers
-from lasersph.physics.dimensionless import marangoni_number, reynolds_number
+from lasersph.physics.dimensionless import marangoni_number, peclet_number, reynolds_number
 from lasersph.physics.flow_limits import flow_limits
 from lasersph.simulation.recipes.melt_pool.driven_speed import (
     BELOW_LID,
@@ -33,7 +33,7 @@ from lasersph.simulation.recipes.melt_pool.driven_speed import (
     driven_speed,
 )
 from lasersph.simulation.recipes.melt_pool.surfaces import recoil_of
-from lasersph.simulation.recipes.recipe import FEWEST_ROWS, FlowForecast
+from lasersph.simulation.recipes.recipe import FEWEST_ROWS, FlowForecast, resolving_spacing
 from lasersph.solvers.melt_pool.layout_renewal import HEIGHT_RANGE
 from lasersph.solvers.melt_pool.settings import MeltPoolSettings
 from lasersph.surface.capillary_waves import surface_limits
@@ -110,9 +110,9 @@ def flow_forecast(
 
 
 def pool_numbers(case: Case, heating: MeltEstimate | None, speed: float) -> dict[str, float]:
-    """Re, Ma and Ca of the pool that light is expected to melt; empty where nothing melts.
+    """Re, Pe, Ma and Ca of the pool that light is expected to melt; empty where nothing melts.
 
-        Re = u d/nu,    Ma = |dgamma/dT| (T_max - T_l) d/(eta a),    Ca = eta u/gamma
+        Re = u d/nu,    Pe = u d/a,    Ma = |dgamma/dT| (T_max - T_l) d/(eta a),    Ca = eta u/gamma
 
     with its depth d and the properties of the liquidus; Ca only of a metal with a gamma.
     """
@@ -126,6 +126,7 @@ def pool_numbers(case: Case, heating: MeltEstimate | None, speed: float) -> dict
     eta, a = float(material.viscosity_at(T)), material.diffusivity_reference
     numbers = {
         "Re": reynolds_number(speed, depth, float(material.kinematic_viscosity_at(T))),
+        "Pe": peclet_number(speed, depth, a),
         "Ma": abs(marangoni_number(_slope(case, T), hot, depth, eta, a)),
     }
     if material.surface_tension is not None:
@@ -135,10 +136,14 @@ def pool_numbers(case: Case, heating: MeltEstimate | None, speed: float) -> dict
 
 def boundary_layers(numbers: dict[str, float], heating: MeltEstimate | None) -> dict[str, float]:
     """Thickness of the layers [m] in which velocity and temperature change, d/sqrt(Re) and
-    d/sqrt(Ma), where they are thinner than the pool, whose depth is d."""
+    d/sqrt(Pe), where they are thinner than the pool, whose depth is d.
+
+    Not d/sqrt(Ma), which is the layer of heat at the speed that viscosity alone would allow: in a
+    weld, whose speed inertia limits, Ma is 20 times Pe.
+    """
     assert heating is not None and heating.surface is not None
     depth = float(heating.surface.depth.max())
-    found = {"viscous layer": numbers["Re"], "thermal layer": numbers["Ma"]}
+    found = {"viscous layer": numbers["Re"], "thermal layer": numbers["Pe"]}
     return {name: depth / sqrt(number) for name, number in found.items() if number > 1.0}
 
 
@@ -324,5 +329,5 @@ def _warnings(layer: float | None, spacing: float) -> list[str]:
     return [
         f"the layer that the surface drags along is about {format_quantity(layer, 'm', 3)} thick, "
         f"{rows:.1f} spacings of {format_quantity(spacing, 'm', 3)}: {spoiled}; "
-        f'particles.spacing = "{format_quantity(layer / MIN_LAYERS, "m", 2)}" resolves it'
+        f'particles.spacing = "{resolving_spacing(layer, MIN_LAYERS)}" resolves it'
     ]
