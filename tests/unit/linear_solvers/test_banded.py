@@ -1,4 +1,4 @@
-"""Banded Cholesky factors: two unknowns by hand, a grid beside dense elimination, no pivot below 0."""
+"""Banded Cholesky factors: two unknowns by hand, a grid beside dense elimination, a lost pivot."""
 
 import numpy as np
 import pytest
@@ -16,7 +16,7 @@ def test_two_unknowns_by_hand():
 
 
 def test_numbers_in_any_order():
-    """A grid of 12 by 7 whose unknowns are shuffled: the band is that of 7 columns, and the solution
+    """A shuffled grid of 12 by 7: the band is that of 7 columns, and the solution
     that of dense elimination."""
     line = [diags([-1.0, 2.0, -1.0], [-1, 0, 1], shape=(n, n)) for n in (12, 7)]
     grid = kron(line[0], identity(7)) + kron(identity(12), line[1]) + identity(84)
@@ -29,7 +29,7 @@ def test_numbers_in_any_order():
 
 
 def test_direction_without_a_pivot():
-    """(1, -1) counts less than nothing by rounding: the rest of the solution is what it should be."""
+    """(1, -1) counts less than nothing by rounding: the rest of the solution is right."""
     found = factorize(csr_matrix([[1e8, 1e8], [1e8, 1e8 * (1.0 - 1e-15)]]))
     x = found.solve(np.array([2e8, 2e8]))
     assert np.sum(x) == pytest.approx(2.0, rel=1e-9) and np.all(np.abs(x - 1.0) < 0.1)
