@@ -21,6 +21,10 @@ VARIANTS = {
     "heat": ("heat alone, no flow", ("solver.kind=conduction",)),
     "iron": ("slope of pure iron, -0.43 mN/(m K)", (OF_METAL, "material.sulfur=0 %")),
     "sulfur": ("iron with 20 ppm of sulfur", (OF_METAL,)),
+    "viscosity": (
+        "melt of 5 mPa s instead of 6.1 to 1.6",
+        ("material.viscosity=5 mPa s",),
+    ),
     "conductivity": (
         "melt that conducts 30 W/(m K) instead of 18 to 20",
         (f"material.conductivity={MELT}",),
