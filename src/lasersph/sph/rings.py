@@ -35,9 +35,13 @@ def ring_weight(g_ij, measure_i, measure_j):
     return 0.5 * (measure_i + measure_j) * g_ij
 
 
-def ring_weight_off_axis(g_ij, measure_i, measure_j, x_j):
-    """`ring_weight`, and 0 toward a ghost beyond the axis."""
-    return ring_weight(g_ij, measure_i, measure_j) if x_j[0] > 0.0 else 0.0 * g_ij
+def ring_weight_off_axis(g_ij, measure_i, measure_j, beyond_j):
+    """`ring_weight`, and 0 toward the image of a particle beyond the axis, where `beyond` is 1.
+
+    Its place does not tell: across a steep surface the ghost of a particle near the axis may lie
+    beyond that, and the particle itself sees the ghosts of others from where it is.
+    """
+    return ring_weight(g_ij, measure_i, measure_j) if beyond_j == 0.0 else 0.0 * g_ij
 
 
 def evened_ring_weight(g_ij, layer_i, layer_j, ring_i, ring_j, has_none_j, additions, layers):
@@ -59,9 +63,9 @@ def evened_ring_weight(g_ij, layer_i, layer_j, ring_i, ring_j, has_none_j, addit
     return g_ij * max(1.0 + b_i + (1.0 - has_none_j) * b_j, 0.0)
 
 
-def ring_pair(g_ij, measure_i, measure_j, x_j, r_i, r_j, c_i, c_j):
+def ring_pair(g_ij, measure_i, measure_j, beyond_j, r_i, r_j, c_i, c_j):
     """Values of a pair of rings: its weight twice, of flow and of heat, and `hoop_share`."""
-    g = ring_weight_off_axis(g_ij, measure_i, measure_j, x_j)
+    g = ring_weight_off_axis(g_ij, measure_i, measure_j, beyond_j)
     return g, g, hoop_share(r_i, r_j, c_i, c_j)
 
 
@@ -98,13 +102,13 @@ def ring_diagonal(g_ij, r_i, r_j, c_i):
     return g_ij * vector(middle * middle, 1.0)
 
 
-def ring_divergence_term(v_i, v_j, C_i, G_ij, r_i, r_j, c_i, x_j):
+def ring_divergence_term(v_i, v_j, C_i, G_ij, r_i, r_j, c_i, beyond_j):
     """Term of the divergence of a velocity [1/s]: r_ij/r_i (v_i + v_j) . C G_ij, 0 across the axis.
 
     Its part v_i . C G_ij counts along r alone: across it sums up to nothing where particles are
     even, and to an error where they are not.
     """
-    if x_j[0] <= 0.0:
+    if beyond_j > 0.0:
         return 0.0 * r_i
     gradient = matvec(C_i, G_ij)
     change = dot(v_j - v_i, gradient) + 2.0 * v_i[0] * gradient[0]

@@ -37,9 +37,9 @@ def divergence_terms(v_i, v_j, C_i, G_ij, VW_ij):
     return corrected_divergence_term(v_i, v_j, C_i, G_ij), VW_ij
 
 
-def ring_divergence_terms(v_i, v_j, C_i, G_ij, VW_ij, r_i, r_j, c_i, x_j):
+def ring_divergence_terms(v_i, v_j, C_i, G_ij, VW_ij, r_i, r_j, c_i, beyond_j):
     """`divergence_terms` of rings."""
-    return ring_divergence_term(v_i, v_j, C_i, G_ij, r_i, r_j, c_i, x_j), VW_ij
+    return ring_divergence_term(v_i, v_j, C_i, G_ij, r_i, r_j, c_i, beyond_j), VW_ij
 
 
 def divergence_load(total_0, total_1, V, fraction, lattice_sum, rate):

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from lasersph.compute.array_types import Array, Constants
+from lasersph.particles.ghosts import LOWER
 from lasersph.solvers.melt_pool.block import Block
 from lasersph.solvers.melt_pool.block_terms import either
 from lasersph.solvers.melt_pool.tangent_block import TangentBlock
@@ -32,7 +33,7 @@ class Rings(Block):
     Attributes:
         measure: (M,) 2 pi r of rings, and of ghosts that of their sources [m]. tangents: (M,) 1 for
             the ghost of a particle across the tangent of a surface that moves, 2 for that of its
-            image beyond a side, 0 for all others.
+            image beyond a side, 0 for all others. beyond_axis: (M,) 1 for images beyond the axis.
     """
 
     def __init__(self, *args: Any, **options: Any) -> None:
@@ -44,7 +45,9 @@ class Rings(Block):
         types = self.ghosts.particles.ghost_types
         beside = np.any(types.crossed[:-1] != 0, axis=0)
         self._tangents = self.ghosts.particles.table(types.crosses_surface * (1.0 + beside))
-        self.measure = self._radii = self._curvatures = self.tangents = self._lengths
+        self._beyond = self.ghosts.particles.table((types.crossed[0] == LOWER).astype(float))
+        self.measure = self._radii = self._curvatures = self._lengths
+        self.tangents = self.beyond_axis = self._lengths
         self._numbers = self.backend.asarray(np.arange(float(self.count)))
         self._heat = self._hoop = self.weights
         self._is_uneven = self._find_uneven(position[0])
@@ -69,13 +72,14 @@ class Rings(Block):
     @property
     def ring_fields(self) -> dict[str, Array]:
         """Distances from the axis of rings and ghosts [m], those of their sources, and 1/r [1/m];
-        of pairs what the hoop stress makes of u (`sph.rings.hoop_share`) [1]."""
+        which lie beyond it; of pairs what the hoop stress makes of u (`sph.rings.hoop_share`)
+        [1]."""
         return self._distances | {"hoop_ij": self._hoop}
 
     @property
     def _distances(self) -> dict[str, Array]:
-        """Distances from the axis of rings and ghosts [m], and 1/r [1/m]."""
-        return {"r": self._radii, "c": self._curvatures}
+        """Distances from the axis of rings and ghosts [m], 1/r [1/m], and which lie beyond it."""
+        return {"r": self._radii, "c": self._curvatures, "beyond": self.beyond_axis}
 
     def _renewed(self, before: Array, values: Array) -> Array:
         """Values in the place of those before, if there are as many: loops are bound to that."""
@@ -91,6 +95,7 @@ class Rings(Block):
         self._radii = self._renewed(self._radii, self.gather(self._radius))
         self._curvatures = self._renewed(self._curvatures, self.gather(self._curvature))
         self.tangents = self._renewed(self.tangents, self.ghosts.of_type(self._tangents))
+        self.beyond_axis = self._renewed(self.beyond_axis, self.ghosts.of_type(self._beyond))
         # of the flow and of heat, and what the hoop stress makes of u
         self._heat, self._hoop = (self._geometry.per_pair(name) for name in ("heat", "hoop"))
         fields = {"g_ij": self.weights, "measure": self.measure, **self._distances}

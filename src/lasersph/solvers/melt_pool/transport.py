@@ -55,7 +55,7 @@ def pair_flux(
     measure_j,
     G_ij,
     g_ij,
-    x_j,
+    beyond_j,
     source_i,
     source_j,
     tangent_j,
@@ -66,10 +66,11 @@ def pair_flux(
     """Volume that flows from i to j [m^3/s] within a pool, 0 across the axis.
 
     Args:
-        v: of the melt over the particles, as ghosts mirror it [m/s]. tangent: see `RingBlock`. u,
-            place, distance: tables of that velocity, of places and of distances from the surface.
+        v: of the melt over the particles, as ghosts mirror it [m/s]. beyond, tangent: see `Rings`.
+            u, place, distance: tables of that velocity, of places and of distances from the
+            surface.
     """
-    if pool_i == 0 or pool_i != pool_j or x_j[0] <= 0.0 or tangent_j > 1.0:
+    if pool_i == 0 or pool_i != pool_j or beyond_j > 0.0 or tangent_j > 1.0:
         return 0.0 * V_i
     if tangent_j > 0.0:
         # V_i G_ij = g_ij (x_j - x_i)/2, and what the tangent at one of both turns, mirrored
@@ -240,7 +241,7 @@ class Transport:
         """F* of the pairs."""
         fields = self._pair_fields(block, self._passing) | {"V": block.V, "g_ij": block.weights}
         fields |= {"measure": block.measure, "tangent": block.tangents}
-        fields |= {"source": block.ghosts.source}
+        fields |= {"source": block.ghosts.source, "beyond": block.beyond_axis}
         tables: Constants = {"u": self._passing, "place": block.ghosts.place}
         tables |= {"distance": block.ghosts.surface.distance}
         self.backend.pair_values(

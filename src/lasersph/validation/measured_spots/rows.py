@@ -33,6 +33,7 @@ VARIANTS = {
         "Gaussian beam of that 1/e^2 diameter",
         ("laser.beam={ kind = 'gaussian', radius_1e2 = '151.5 um' }",),
     ),
+    "moving": ("surface that moves", ("solver.flow.surface=moving",)),
 }
 """Name of an input that differs, and the settings that make it so."""
 

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from flow_boxes import matrix_of
 from spot_pools import half_ball, spot_pool
 
 from lasersph.sph.rings import STEPS, evened_ring_weight
@@ -44,3 +45,20 @@ def test_heat_has_additions_wherever_they_are(block):
     )
     assert np.array_equal(heat, found)
     assert np.count_nonzero(heat != weights) > 0
+
+
+def test_weights_beside_a_steep_axis_are_symmetric():
+    """Below a dimple of a slope of 0.8 ghosts of the first rings lie beyond the axis: what goes from
+    i to j arrives all the same."""
+    dimple = {"amplitude": -3.5e-7, "radius": 4e-7}
+    flow = {"surface": "moving", "initial_surface": dimple}
+    solver = spot_pool(half_ball, material="steel-304", depth=1.5e-6, solver={"flow": flow})[1]
+    solver.time_step_limits()
+    solver.advect(1e-12)
+    block = solver.flow.block
+    place, image = (np.asarray(one) for one in (block.pairs.position, block.tangents))
+    beyond = np.asarray(block.beyond_axis)
+    assert np.count_nonzero((place[0] < 0.0) & (image == 1.0) & (beyond == 0.0)) > 3
+    g = matrix_of(block.backend, block.without_ghosts(), block.weights, block.count)
+    known = np.ix_(*2 * (np.asarray(block.rows) if block.rows is not None else slice(None),))
+    assert np.abs(g - g.T)[known].max() < 1e-11 * g.max()

@@ -28,10 +28,10 @@ U = np.array([[1.0, 3.0], [0.5, -2.0]]).T
 PLACE, DISTANCE = np.array([[1.0, 0.0], [1.5, 0.0]]), np.array([0.2, 0.3])
 
 
-def flux(pools, x_j=1.0, tangent=0.0, pair=(0, 1)):
+def flux(pools, beyond=0.0, tangent=0.0, pair=(0, 1)):
     """Of a pair at r = 1 m: rings of 2 and 4 m, 3 m^2, both moving up with 1 m/s; across a surface
     that moves those at 1 and 1.5 m, 0.2 and 0.3 m below it, with velocities U, of a weight 2."""
-    rings = (3.0, 2.0, 4.0, G, 2.0, np.array([x_j, 0.0]))
+    rings = (3.0, 2.0, 4.0, G, 2.0, beyond)
     return pair_flux(UP, UP, *pools, *rings, *pair, tangent, U.T, PLACE, DISTANCE)
 
 
@@ -39,7 +39,7 @@ def test_flux_of_a_pair():
     """Mean ring of 3 m times 3 m^2 times (v_i + v_j) . G; within a pool, on this side of the
     axis."""
     assert flux((1, 1)) == 3.0 * 3.0 * -4.0
-    assert flux((1, 2)) == flux((0, 0)) == flux((1, 0)) == flux((1, 1), -1.0) == 0.0
+    assert flux((1, 2)) == flux((0, 0)) == flux((1, 0)) == flux((1, 1), 1.0) == 0.0
 
 
 def test_flux_across_a_surface_that_moves():
