@@ -48,8 +48,8 @@ def test_heat_has_additions_wherever_they_are(block):
 
 
 def test_weights_beside_a_steep_axis_are_symmetric():
-    """Below a dimple of a slope of 0.8 ghosts of the first rings lie beyond the axis: what goes from
-    i to j arrives all the same."""
+    """Below a dimple of a slope of 0.8 ghosts of the first rings lie beyond the axis: what goes
+    from i to j arrives all the same."""
     dimple = {"amplitude": -3.5e-7, "radius": 4e-7}
     flow = {"surface": "moving", "initial_surface": dimple}
     solver = spot_pool(half_ball, material="steel-304", depth=1.5e-6, solver={"flow": flow})[1]
