@@ -145,7 +145,7 @@ def level_line(axes: Axes, value: float, name: str) -> None:
     """A thin horizontal line at a known temperature, named at its right end."""
     axes.axhline(value, color=GRAY, linewidth=0.8, linestyle=(0, (4, 3)), zorder=1)
     axes.annotate(
-        name,
+        f"{name} ",  # the space keeps slanted letters off the edge of the figure
         (1.0, value),
         xycoords=("axes fraction", "data"),
         xytext=(4, 0),
