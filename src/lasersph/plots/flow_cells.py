@@ -14,11 +14,11 @@ from lasersph.plots.curves import any_above_zero, draw_columns
 from lasersph.plots.flow_fields import (
     PlaneFlow,
     Raster,
-    fastest_time,
     has_flow,
     plane_flow,
     pool_frame,
     raster,
+    time_of_most_flow,
 )
 from lasersph.plots.flow_history import show_flow
 from lasersph.plots.flow_map import METAL_GRAY, draw_streamlines, drawn_shape, finish, frame_unit
@@ -38,7 +38,7 @@ def flow_cell_map(run: RunOrFolder, time: float | None = None) -> Figure | None:
     """Cells of the melt of a round spot, on both sides of the axis; height and turnover over time.
 
     Args:
-        run: the run. time: of the section [s]; if not given, when the surface was fastest.
+        run: the run. time: of the section [s]; if not given, when the melt had most kinetic energy.
 
     Returns:
         The figure; None where the run is no section (r, z) with a flat surface, or nothing turned.
@@ -47,7 +47,7 @@ def flow_cell_map(run: RunOrFolder, time: float | None = None) -> Figure | None:
     shown = [name for name in CELLS if any_above_zero(run, f"flow_{name}_turnover_m3_s")]
     if not shown or not has_flow(run):
         return None
-    flow = plane_flow(run, fastest_time(run) if time is None else time)
+    flow = plane_flow(run, time_of_most_flow(run) if time is None else time)
 
     # Above the section, below it height and turnover over time.
     frame = pool_frame(run, flow)

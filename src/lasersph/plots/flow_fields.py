@@ -181,12 +181,13 @@ def is_box(run: Run) -> bool:
     return "box_u_max_m_s" in run.history
 
 
-def fastest_time(run: Run) -> float:
-    """When the surface was fastest; where none moved, when anything was; a box at the end [s]."""
+def time_of_most_flow(run: Run) -> float:
+    """When the melt had most kinetic energy; a box at the end [s].
+
+    Not when its surface was fastest, which a weld is while its pool is shallow.
+    """
     history = run.history
     # A box is slow at first and steady at the end.
     if is_box(run):
         return float(history["time_s"][-1])
-    column = history["flow_surface_speed_max_m_s"]
-    column = column if np.any(column > 0.0) else history["flow_speed_max_m_s"]
-    return float(history["time_s"][np.argmax(column)])
+    return float(history["time_s"][np.argmax(history["flow_kinetic_energy_J"])])

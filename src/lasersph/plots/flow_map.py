@@ -13,12 +13,12 @@ from lasersph.plots.flow_fields import (
     PlaneFlow,
     Raster,
     body_frame,
-    fastest_time,
     has_flow,
     is_box,
     plane_flow,
     pool_frame,
     raster,
+    time_of_most_flow,
 )
 from lasersph.plots.particle_map import MAP_WIDTH, exaggeration_of
 
@@ -47,7 +47,7 @@ def pool_flow_map(run: RunOrFolder, time: float | None = None) -> Figure | None:
     """Temperature, speed with arrows, and phase with streamlines of the melt pool at one time.
 
     Args:
-        run: the run. time: seconds; if not given, when the surface was fastest.
+        run: the run. time: seconds; if not given, when the melt had most kinetic energy.
 
     Returns:
         The figure; None where nothing flowed or the run is a box.
@@ -55,7 +55,7 @@ def pool_flow_map(run: RunOrFolder, time: float | None = None) -> Figure | None:
     run = open_run(run)
     if not has_flow(run) or is_box(run):
         return None
-    flow = plane_flow(run, fastest_time(run) if time is None else time)
+    flow = plane_flow(run, time_of_most_flow(run) if time is None else time)
     if flow.fastest == 0.0:
         return None
 
@@ -84,7 +84,7 @@ def box_flow_map(run: RunOrFolder, time: float | None = None) -> Figure | None:
     run = open_run(run)
     if not has_flow(run) or not is_box(run):
         return None
-    flow = plane_flow(run, fastest_time(run) if time is None else time)
+    flow = plane_flow(run, time_of_most_flow(run) if time is None else time)
     if flow.fastest == 0.0:
         return None
 

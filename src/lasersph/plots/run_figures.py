@@ -166,13 +166,13 @@ DRAWINGS = (
     ),
     Drawing(
         "flow",
-        "The melt pool when its surface was fastest: temperature; speed, with arrows whose length"
+        "The melt pool when its flow was strongest: temperature; speed, with arrows whose length"
         " grows with the root of the speed; phase, with streamlines of the liquid.",
         pool_flow_map,
     ),
     Drawing(
         "flow-cells",
-        "The cells in which the melt of a round spot turns, when its surface was fastest, with"
+        "The cells in which the melt of a round spot turns, when its flow was strongest, with"
         " streamlines: red where it flows outward at the top of the cell, blue where inward. Below:"
         " how high they are and which volume they turn, over time.",
         flow_cell_map,
