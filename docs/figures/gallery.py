@@ -148,6 +148,16 @@ GALLERY = (
         _plots("relief"),
     ),
     _entry(
+        "weld",
+        "A weld of ten milliseconds",
+        "316L whose surface tension rises with temperature: its melt flows inward and down.",
+        ("lasersph run spot-weld --set particles.spacing=6um --anyway --out runs/weld",),
+        "runs/weld/figures/flow.png",
+        _case("spot-weld"),
+        f"{RECIPES}.melt_pool",
+        _plots("flow_map"),
+    ),
+    _entry(
         "steel-temperature",
         "How hot, and for how long",
         "The surface boils at the maximum of the light and stays solid where it is dark.",
