@@ -45,7 +45,7 @@ class Rings(Block):
         types = self.ghosts.particles.ghost_types
         beside = np.any(types.crossed[:-1] != 0, axis=0)
         self._tangents = self.ghosts.particles.table(types.crosses_surface * (1.0 + beside))
-        self._beyond = self.ghosts.particles.table((types.crossed[0] == LOWER).astype(float))
+        self._crosses_axis = self.ghosts.particles.table((types.crossed[0] == LOWER).astype(float))
         self.measure = self._radii = self._curvatures = self._lengths
         self.tangents = self.beyond_axis = self._lengths
         self._numbers = self.backend.asarray(np.arange(float(self.count)))
@@ -95,7 +95,7 @@ class Rings(Block):
         self._radii = self._renewed(self._radii, self.gather(self._radius))
         self._curvatures = self._renewed(self._curvatures, self.gather(self._curvature))
         self.tangents = self._renewed(self.tangents, self.ghosts.of_type(self._tangents))
-        self.beyond_axis = self._renewed(self.beyond_axis, self.ghosts.of_type(self._beyond))
+        self.beyond_axis = self._renewed(self.beyond_axis, self.ghosts.of_type(self._crosses_axis))
         # of the flow and of heat, and what the hoop stress makes of u
         self._heat, self._hoop = (self._geometry.per_pair(name) for name in ("heat", "hoop"))
         fields = {"g_ij": self.weights, "measure": self.measure, **self._distances}
