@@ -1,9 +1,9 @@
 """Cholesky factors of a sparse symmetric matrix that is positive, in a narrow band.
 
-Unknowns are numbered anew so that those that share an entry stand near each other [Cuthill1969]. On
-a grid of m columns some sqrt(m) wide, with differences three columns long, the band is 4 sqrt(m)
-wide and its factors take 16 m^2 products, of dense blocks: 15 times less time than a sparse
-factorization of 440 columns and 2.5 times less of 16 000.
+Unknowns are numbered anew so that those that share an entry stand near each other [Cuthill1969].
+On a grid of m columns some sqrt(m) wide, with differences that reach four columns far, the band is
+some 4 sqrt(m) wide, and its factors take 16 m^2 products in dense blocks: less time than a sparse
+factorization needs up to more columns than pools have (`benchmarks/test_surface_factors.py`).
 """
 
 from __future__ import annotations
