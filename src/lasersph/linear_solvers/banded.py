@@ -42,7 +42,7 @@ class BandedFactors(NamedTuple):
 
 
 def factorize(A: csr_matrix) -> BandedFactors:
-    """Factors of a symmetric matrix (n, n)."""
+    """Factors of a symmetric matrix (n, n), but for `SHIFT` on its diagonal."""
     from scipy.linalg import cholesky_banded
     from scipy.sparse.csgraph import reverse_cuthill_mckee
 
