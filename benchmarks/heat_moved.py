@@ -22,6 +22,7 @@ from lasersph import compute
 from lasersph.case import load_case
 from lasersph.simulation.recipes import recipe_of
 from lasersph.solvers.melt_pool.solver import MeltPool
+from lasersph.validation.natural_convection.rows import diffusivity
 
 PRANDTL = 0.71
 MIDDLE, DIFFERENCE = 300.0, 10.0
@@ -35,15 +36,10 @@ def box_of(rayleigh: float, cells: int, end: float) -> MeltPool:
     settings = (
         f"particles.spacing={1.0 / cells!r} m",
         f"material.kinematic_viscosity={np.sqrt(PRANDTL / rayleigh):.8g} m^2/s",
-        f"material.conductivity={diffusivity(rayleigh):.8g} W/(m K)",
+        f"material.conductivity={diffusivity(rayleigh, PRANDTL):.8g} W/(m K)",
         f"time.end={2.0 * end!r} s",
     )
     return recipe_of(load_case("natural-convection", settings)).build(compute.cpu(threads=1))
-
-
-def diffusivity(rayleigh: float) -> float:
-    """a [m^2/s]; rho c is 1 J/(m^3 K)."""
-    return float(1.0 / np.sqrt(PRANDTL * rayleigh))
 
 
 def advance(box: MeltPool) -> float:
@@ -82,7 +78,7 @@ def main() -> None:
     parser.add_argument("--end", type=float, default=90.0, help="[s]")
     given = parser.parse_args()
     box = box_of(given.rayleigh, given.cells, given.end)
-    found = nusselt_numbers(box, diffusivity(given.rayleigh), given.end)
+    found = nusselt_numbers(box, diffusivity(given.rayleigh, PRANDTL), given.end)
     walls = 0.5 * (found["left"] + found["right"])
     for name in ("left", "right", "u T", "displacements"):
         print(f"{name:14} {found[name]:.4f}, {found[name] / walls - 1.0:+.2%} of the walls")

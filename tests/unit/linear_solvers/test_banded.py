@@ -16,8 +16,7 @@ def test_two_unknowns_by_hand():
 
 
 def test_numbers_in_any_order():
-    """A shuffled grid of 12 by 7: the band is that of 7 columns, and the solution
-    that of dense elimination."""
+    """A shuffled grid of 12 by 7: the band is that of 7 columns, x that of dense elimination."""
     line = [diags([-1.0, 2.0, -1.0], [-1, 0, 1], shape=(n, n)) for n in (12, 7)]
     grid = kron(line[0], identity(7)) + kron(identity(12), line[1]) + identity(84)
     shuffled = np.random.default_rng(3).permutation(84)

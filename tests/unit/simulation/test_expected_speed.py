@@ -28,7 +28,7 @@ COMPUTED = {
     # lasersph run texture-steel-10ps with 16 nm, to 4 ns: largest speed at the surface
     ("texture-steel-10ps", ""): 1.785,
     ("spot-steel", ""): 11.1,  # lasersph run spot-steel: largest speed at the surface
-    ("spot-weld", ""): 3.5,  # lasersph run spot-weld: largest speed at the surface
+    ("spot-weld", ""): 2.666,  # lasersph run spot-weld: largest speed at the surface
     ("moving-film", ""): 1.146,  # lasersph run moving-film --quick
     ("spot-film", ""): 0.48,  # lasersph run spot-film
     ("natural-convection", ""): 0.2977,  # lasersph run natural-convection --quick: any particle
