@@ -70,7 +70,7 @@ def pool_flow(view: View, *, inner=None) -> View:
         density=DENSITY,
         viscosity=VISCOSITY,
         surface_tension_slope=SLOPE,
-        recoil_pressure=5e4 * np.exp((view.temperature[surface] - 3273.0) / 300.0),
+        recoil=lambda T: 5e4 * np.exp((T - 3273.0) / 300.0),
     )
     counts = {**view.iterations, "pressure": 25, "viscosity": 8}
     return replace(view, flow=flow, iterations=counts if view.step else {})

@@ -7,7 +7,7 @@ the speed already is smaller by depth * tau / eta, the Marangoni stress tau over
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Self
 
@@ -47,8 +47,8 @@ class FlowView:
         spacing_min: smallest distance of two particles [m].
         density, viscosity: of the liquid at the liquidus [kg/m^3], [Pa s].
         surface_tension_slope: d gamma/dT [N/(m K)], 0 where there is none.
-        recoil_pressure: (s,) recoil pressure 0.54 p_sat(T) of a free surface [Pa]; None where
-            the material has no data of its vapor.
+        recoil: recoil pressure [Pa] of the vapor on a free surface at temperatures (n,) [K]; None
+            where the material has no data of its vapor.
         box: whether this is a closed box that is all fluid, from a `[solver.flow]` table. mirror:
             its front or back, about which it is mirrored.
         conductivity: of the liquid [W/(m K)]; boxes report heat fluxes with it.
@@ -79,7 +79,7 @@ class FlowView:
     density: float
     viscosity: float
     surface_tension_slope: float = 0.0
-    recoil_pressure: np.ndarray | None = None
+    recoil: Callable[[np.ndarray], np.ndarray] | None = None
     box: bool = False
     mirror: str = ""
     conductivity: float = 0.0

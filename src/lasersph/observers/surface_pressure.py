@@ -78,13 +78,14 @@ class SurfacePressure(Observer):
         return self.record(view.time, self._measure(view, flow, wet))
 
     def _measure(self, view: View, flow: FlowView, wet: np.ndarray) -> tuple[float, ...]:
-        vapor = flow.recoil_pressure
-        # recoil pressure of the same particles, where vapor leaves
-        self.has_vapor = vapor is not None
-        recoil = np.zeros(wet.size) if vapor is None else vapor[wet]
         pressure, x = flow.surface_pressure[wet], view.position[0, flow.surface[wet]]
         # highest and lowest pressure of this step, and where
         high, low = int(np.argmax(pressure)), int(np.argmin(pressure))
+        # recoil pressure there and at the hottest place, where it is largest
+        T = flow.surface_temperature[wet]
+        self.has_vapor = flow.recoil is not None
+        at = np.array([T[high], T[low], T.max()])
+        recoil = np.zeros(3) if flow.recoil is None else flow.recoil(at)
         now = [float(pressure[high]), float(pressure[low])]
         span = AVERAGED_STEPS * flow.full_step
         # running mean, first value as it is
@@ -92,14 +93,15 @@ class SurfacePressure(Observer):
         old = self.means or now
         self.means = [mean + share * (p - mean) for mean, p in zip(old, now, strict=True)]
         self.seen_at = view.time
-        values = (*self.means, float(np.max(recoil)))
+        values = (*self.means, float(recoil[2]))
         self.largest.update(values[0], view.time)
         self.lowest.update(-values[1], view.time)
         self.recoil.update(values[2], view.time)
         # where each extreme was, and the recoil there
-        for name, peak, k in (("max", self.largest, high), ("min", self.lowest, low)):
+        extremes = (("max", self.largest, high), ("min", self.lowest, low))
+        for (name, peak, k), there in zip(extremes, recoil, strict=False):
             if peak.last == view.time:
-                self.places[name] = [float(x[k]), float(recoil[k])]
+                self.places[name] = [float(x[k]), float(there)]
         return values
 
     def values(self) -> dict[str, object]:

@@ -75,7 +75,7 @@ def fine_width(case: Case, fine_depth: float) -> float:
     if laser is None or not has_spot_in_the_middle(case):
         return np.inf
     radius = 0.5 * laser.spot_fluence.diameter
-    melt = melt_radius(case, radius)
+    melt = melt_radius(melt_across(case, radius))
     if melt == 0.0:
         return np.inf
     # a pool that flows keeps a margin to the coarse columns, and one support more
@@ -86,10 +86,10 @@ def fine_width(case: Case, fine_depth: float) -> float:
     return max(radius, WIDENING * melt) + solid
 
 
-def melt_radius(case: Case, radius: float) -> float:
-    """How far from its center the light of a spot melts a metal [m], 0 where it does not.
+def melt_across(case: Case, radius: float) -> MeltEstimate:
+    """Expected melt of a spot in columns from its center outward.
 
-    Columns lie side by side in a plane, which loses less heat than a disk.
+    They lie side by side in a plane, which loses less heat than a disk.
 
     Args:
         radius: of the light [m].
@@ -98,11 +98,17 @@ def melt_radius(case: Case, radius: float) -> float:
     farthest = max(max(-low, high) for low, high in case.domain.lateral(case.geometry))
     heat = float(np.sqrt(case.material.diffusivity_reference * case.end_of_pulse))
     width = min(farthest, MOST_RADII * (radius + heat)) / WIDTH_COLUMNS
-    found = _estimate(case, WIDTH_COLUMNS, width)
-    if found.surface is None or found.depth == 0.0:
+    return _estimate(case, WIDTH_COLUMNS, width)
+
+
+def melt_radius(melt: MeltEstimate) -> float:
+    """How far from its center the light of a spot melts a metal [m], by `melt_across`; 0 where it
+    does not."""
+    surface = melt.surface
+    if surface is None or surface.column_width is None or melt.depth == 0.0:
         return 0.0
-    molten = np.flatnonzero(found.surface.depth.max(axis=0) > 0.0)
-    return float(molten[-1] + 1) * width
+    molten = np.flatnonzero(surface.depth.max(axis=0) > 0.0)
+    return float(molten[-1] + 1) * surface.column_width
 
 
 def fine_depth(case: Case, melt: MeltEstimate | None) -> float:

@@ -15,6 +15,7 @@ from lasersph.simulation.case_forecast import SECONDS_PER_LOOP
 from lasersph.simulation.known_loops import known_loops
 from lasersph.simulation.layers import lay_out
 from lasersph.simulation.recipes import recipe_of
+from lasersph.simulation.recipes.melt_pool.forecast import flowing_share
 
 LAYERS = {
     "ablation-aluminium": (40, 40, 400000),
@@ -35,7 +36,7 @@ LAYERS = {
     "sound-wave": (100, 100, 100),
     "spot-film": (14, 14, 4200),
     "spot-steel": (39, 23, 5410),
-    "spot-weld": (132, 112, 13065),
+    "spot-weld": (102, 80, 9643),
     "stefan": (200, 200, 200),
     "taylor-green": (50, 50, 2500),
     "texture-aluminium": (73, 31, 2799),
@@ -228,6 +229,27 @@ def test_layers_too_shallow_for_what_evaporates():
     assert (gone[1] - gone[0]) / (2.5 * exact.time) == pytest.approx(0.989 * exact.speed, rel=0.01)
     assert 'the run is likely to stop before its end; write domain.depth = "656 nm"' in said[1]
     assert "evaporate" not in said[2]
+
+
+def test_share_of_the_block_that_flows() -> None:
+    """A pool in a block twice as deep is half the share of it; without light all is liquid."""
+    shares = {}
+    for depth in ("0.4um", "0.8um"):
+        recipe = recipe_of(load_case("dlip-steel", [f"particles.fine_depth={depth}"]))
+        found = flowing_share(recipe.case, recipe.layers, recipe.melt)
+        shares[depth] = found * recipe.layers.fine_depth
+    assert 0.05 < found < 0.1
+    assert shares["0.4um"] == pytest.approx(shares["0.8um"])
+    assert flowing_share(recipe.case, recipe.layers, None) == 1.0
+
+
+def test_flow_costs_as_much_as_its_melt() -> None:
+    """Fine columns beside the pool of a spot cost their heat alone."""
+    wide = ["particles.spacing=12um", "particles.fine_width=0.8mm"]
+    near, far = (forecast(load_case("spot-weld", settings)) for settings in (wide[:1], wide))
+    assert near.steps == far.steps
+    assert far.particles > 1.3 * near.particles
+    assert near.wall_time < far.wall_time < 1.1 * near.wall_time
 
 
 def test_numbers_and_layers_of_a_pool() -> None:

@@ -23,10 +23,12 @@ from lasersph.boundaries.flow_conditions import FREE
 from lasersph.boundaries.initial_flow import TaylorGreenFlow
 from lasersph.boundaries.settings import DIRICHLET
 from lasersph.case import Case
+from lasersph.case.size import has_spot_in_the_middle
 from lasersph.input import format_quantity
 from lasersph.particles.layers import Layers
 from lasersph.physics.dimensionless import marangoni_number, peclet_number, reynolds_number
 from lasersph.physics.flow_limits import flow_limits
+from lasersph.simulation.layers import melt_across
 from lasersph.simulation.recipes.melt_pool.driven_speed import (
     BELOW_LID,
     BELOW_MOVING_SURFACE,
@@ -145,6 +147,30 @@ def boundary_layers(numbers: dict[str, float], heating: MeltEstimate | None) -> 
     depth = float(heating.surface.depth.max())
     found = {"viscous layer": numbers["Re"], "thermal layer": numbers["Pe"]}
     return {name: depth / sqrt(number) for name, number in found.items() if number > 1.0}
+
+
+def flowing_share(case: Case, layers: Layers, melt: MeltEstimate | None) -> float:
+    """Share of the finest particles that flow, in the mean of the time in which any do; 1 where no
+    light is expected to melt them.
+
+    Args:
+        melt: the estimate of what light melts, None without light.
+    """
+    # of a spot, whose finest columns reach beyond its melt, in columns from its center outward
+    width = 1.0
+    if layers.beside and case.laser is not None and has_spot_in_the_middle(case):
+        melt = melt_across(case, 0.5 * case.laser.spot_fluence.diameter)
+        if melt.surface is not None and melt.surface.column_width is not None:
+            columns = melt.surface.depth.shape[1]
+            width = columns * melt.surface.column_width / layers.fine_bounds[0][1]
+    surface = None if melt is None else melt.surface
+    if surface is None or not surface.depth.any():
+        return 1.0
+    # depth in the mean of columns and of the times of melt
+    molten = surface.depth.any(axis=1)
+    lasting = np.diff(surface.time, prepend=surface.time[0])[molten]
+    depth = np.average(surface.depth[molten].mean(axis=1), weights=lasting)
+    return min(width * float(depth) / layers.fine_depth, 1.0)
 
 
 def _pool_speed(case: Case, solver: MeltPoolSettings, surface: SurfaceHistory) -> float:

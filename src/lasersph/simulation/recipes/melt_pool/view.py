@@ -6,6 +6,7 @@ The observer of a box looks at some states later than the step after which it is
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -59,7 +60,7 @@ def flow_view(
         spacing_min=solver.spacing_min,
         density=liquid.density,
         viscosity=liquid.density * liquid.viscosity,
-        recoil_pressure=_recoil(case, found.temperature),
+        recoil=_recoil(case),
         box=is_box,
         mirror=case.flow.mirror if case.flow else "",
         wall_temperature=wall_temperature,
@@ -144,12 +145,13 @@ def _size(gradient: np.ndarray, surface: np.ndarray) -> np.ndarray:
     return found[0] if found.shape[0] < 3 else np.sqrt(np.sum(found * found, axis=0))
 
 
-def _recoil(case: Case, temperature: np.ndarray) -> np.ndarray | None:
-    """0.54 p_sat(T) [Pa]; with a flux of vapor, what of it exceeds the surroundings."""
+def _recoil(case: Case) -> Callable[[np.ndarray], np.ndarray] | None:
+    """Recoil [Pa] at temperatures [K]: 0.54 p_sat(T); with a flux of vapor, what of it exceeds the
+    surroundings."""
     vapor = case.material.vaporization
-    if vapor is None or vapor.molar_mass is None or temperature.size == 0:
+    if vapor is None or vapor.molar_mass is None:
         return None
     # Against a vacuum the recoil is 0.54 p_sat; against surroundings what exceeds their pressure.
     has_flux = case.solver.has_vapor_flux
     ambient = case.boundaries.pressure_of_surroundings if has_flux else None
-    return recoil_at(temperature, vapor, ambient)
+    return partial(recoil_at, metal=vapor, ambient=ambient)
