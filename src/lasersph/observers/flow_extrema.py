@@ -33,7 +33,7 @@ from lasersph.observers.flow_speed import flow_of
 from lasersph.observers.observer import Observer, Row
 from lasersph.observers.peak import Span
 from lasersph.observers.quantity import Quantity
-from lasersph.observers.surface_fields import line_along_x
+from lasersph.observers.surface_fields import SurfaceLine, line_along_x
 from lasersph.observers.view import View
 
 PROMINENCE = 0.05
@@ -87,12 +87,14 @@ class FlowExtrema(Observer):
 
     def observe(self, view: View) -> Row:
         """Speed [m/s] and place [m] of both extrema; 0 where one does not exist."""
-        edge = zone_edge(view)
+        surface, spacing = line_along_x(view), spacing_at(view)
+        edge = zone_edge(surface, spacing, view.vaporization)
         self.widest = max(self.widest, edge)
         # a particle less at its edge, not its motion with the flow
         shrinks = edge < self.widest - 0.5 * float(np.min(view.width))
         line = self._line(edge) if shrinks else 0.0
-        found = self._by_name(surface_extrema(view, 0.0 if shrinks else EDGE, line), line)
+        margin = 0.0 if shrinks else EDGE * spacing
+        found = self._by_name(surface_extrema(surface, margin, line), line)
         # a maximum that does not count for a while goes on, but not the inner one without a zone
         lasting = self.last_place if edge > 0.0 or "inner" in found else {}
         self.last_place = lasting | {name: x for name, (_, x) in found.items()}
@@ -147,16 +149,20 @@ class FlowExtrema(Observer):
         return super().summary() if any(peak.value for peak in self.peak.values()) else {}
 
 
-def zone_edge(view: View) -> float:
-    """Outer edge at x > 0 of the surface at the vaporization temperature [m]; 0 where none is."""
-    if view.vaporization is None:
+def zone_edge(surface: SurfaceLine, spacing: float, vaporization: float | None) -> float:
+    """Outer edge at x > 0 of the surface at the vaporization temperature [m]; 0 where none is.
+
+    Args:
+        spacing: of the particles along x [m]. vaporization: temperature [K], None where there is
+            none.
+    """
+    if vaporization is None:
         return 0.0
-    line = line_along_x(view)
     # cells at the boiling point, but for rounding
-    boils = line.temperature >= view.vaporization * NEARLY
+    boils = surface.temperature >= vaporization * NEARLY
     if not np.any(boils):
         return 0.0
-    return max(float(np.max(line.x[boils])) + 0.5 * spacing_at(view), 0.0)
+    return max(float(np.max(surface.x[boils])) + 0.5 * spacing, 0.0)
 
 
 def spacing_at(view: View) -> float:
@@ -164,14 +170,13 @@ def spacing_at(view: View) -> float:
     return float(view.width[0, flow_of(view).surface[0]])
 
 
-def surface_extrema(view: View, margin: float = 0.0, line: float = 0.0) -> list[Place]:
+def surface_extrema(surface: SurfaceLine, margin: float = 0.0, line: float = 0.0) -> list[Place]:
     """The one or two largest maxima of |u| along the surface at x > 0, in order of x.
 
     Args:
-        margin: spacings from the edge of the liquid within which none counts.
+        margin: distance from the edge of the liquid within which none counts [m].
         line: place that no top crosses [m].
     """
-    surface = line_along_x(view)
     # half of the surface at x > 0, closed by zeros at both ends
     chosen = surface.flows & (surface.x > 0.0)
     if np.count_nonzero(chosen) < 3:
@@ -182,7 +187,7 @@ def surface_extrema(view: View, margin: float = 0.0, line: float = 0.0) -> list[
     least = PROMINENCE * float(np.max(speed))
     found, rise = local_maxima(speed, least)
     center = centers_of_tops(place, speed, found, least, line)
-    edge = float(np.max(place)) - margin * spacing_at(view)
+    edge = float(np.max(place)) - margin
     inside = np.flatnonzero(place[found] <= edge)
     # the two that stand out most, in order of x
     most = np.sort(inside[np.argsort(-rise[inside], kind="stable")[:2]])

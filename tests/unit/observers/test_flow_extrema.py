@@ -12,17 +12,24 @@ from lasersph.observers.flow_extrema import (
     FlowExtrema,
     centers_of_tops,
     local_maxima,
+    spacing_at,
     surface_extrema,
     zone_edge,
 )
+from lasersph.observers.surface_fields import line_along_x
+
+
+def extrema_of(view, margin=0.0):
+    """Those of the line along x of a view."""
+    return surface_extrema(line_along_x(view), margin)
 
 
 def test_two_extrema_are_found():
     """In order of x, each at its place; without a second one it is absent."""
     body = liquid_rows(2)
-    (only,) = surface_extrema(pool_flow(body, inner=0.0))
+    (only,) = extrema_of(pool_flow(body, inner=0.0))
     assert only[1] == pytest.approx(PERIOD / 4, abs=5 * NM)
-    inner, outer = surface_extrema(pool_flow(body, inner=1.0))
+    inner, outer = extrema_of(pool_flow(body, inner=1.0))
     assert inner[1] == pytest.approx(400 * NM, abs=60 * NM)
     assert inner[0] > outer[0]
     assert outer[1] == pytest.approx(PERIOD / 4, abs=5 * NM)
@@ -80,7 +87,7 @@ def test_noise_is_no_extremum():
     view = pool_flow(liquid_rows(2), inner=0.0)
     noise = 0.04 * FASTEST * np.random.default_rng(1).uniform(-0.5, 0.5, 500)
     noisy = replace(view.flow, surface_velocity=view.flow.surface_velocity + noise)
-    assert len(surface_extrema(replace(view, flow=noisy))) == 1
+    assert len(extrema_of(replace(view, flow=noisy))) == 1
 
 
 def test_edge_of_the_spreading_liquid_is_no_extremum():
@@ -90,8 +97,8 @@ def test_edge_of_the_spreading_liquid_is_no_extremum():
     rising = view.flow.surface_velocity + np.where(x > 1000 * NM, 1.5, 0.0)
     flows = view.flow.flows & (view.position[0] < 1020 * NM)
     two_maxima = replace(view, flow=replace(view.flow, surface_velocity=rising, flows=flows))
-    assert len(surface_extrema(two_maxima)) == 2
-    (only,) = surface_extrema(two_maxima, margin=4.0)
+    assert len(extrema_of(two_maxima)) == 2
+    (only,) = extrema_of(two_maxima, margin=4.0 * spacing_at(two_maxima))
     assert only[1] == pytest.approx(600 * NM, abs=3 * NM)
 
 
@@ -234,8 +241,8 @@ def test_extremum_of_a_dot_lies_on_the_line_through_its_middle(extent):
     """U sin kx along y = 0 up to the rim at a quarter period, below a flat surface as well."""
     view = dot_view(TIMES[-1], extent=extent)
     for one in (view, below_lid(view)):
-        (only,) = surface_extrema(one)
+        (only,) = extrema_of(one)
         assert only == pytest.approx((2.0 * np.sin(0.45 * np.pi), 0.25 * 5e-6), rel=0.1)
-    hot = replace(view, vaporization=2500.0)
     # T = 1800 K + 900 K cos kx is 2500 K at kx = 0.68
-    assert zone_edge(hot) == pytest.approx(0.68 * 5e-6 / (2.0 * np.pi), abs=125 * NM)
+    edge = zone_edge(line_along_x(view), spacing_at(view), 2500.0)
+    assert edge == pytest.approx(0.68 * 5e-6 / (2.0 * np.pi), abs=125 * NM)
