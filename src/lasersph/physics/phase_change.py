@@ -7,12 +7,23 @@ pointwise; the node arrays are tables, extended by their end segments.
 
 from __future__ import annotations
 
-from lasersph.compute.vectors import interpolate, interpolation_slope, segment
+from lasersph.compute.vectors import interpolate, interpolation_slope, segment, segment_near
 
 
 def state(h, h_nodes, T_nodes, P_nodes, m_nodes, v_nodes):
     """Temperature [K], heat potential [W/m], melt and vapor fraction at enthalpy h [J/kg]."""
-    low = segment(h, h_nodes)
+    return state_in(segment(h, h_nodes), h, h_nodes, T_nodes, P_nodes, m_nodes, v_nodes)
+
+
+def state_near(h, guess, h_nodes, T_nodes, P_nodes, m_nodes, v_nodes):
+    """`state`, and the number of the segment of the curve, which is looked for first at `guess`."""
+    low = segment_near(h, guess, h_nodes)
+    T, P, f_m, f_v = state_in(low, h, h_nodes, T_nodes, P_nodes, m_nodes, v_nodes)
+    return T, P, f_m, f_v, 1.0 * low
+
+
+def state_in(low, h, h_nodes, T_nodes, P_nodes, m_nodes, v_nodes):
+    """`state` in the segment number `low`."""
     share = (h - h_nodes[low]) / (h_nodes[low + 1] - h_nodes[low])
     return (
         T_nodes[low] + share * (T_nodes[low + 1] - T_nodes[low]),
@@ -56,7 +67,7 @@ def potential_slope(h, h_nodes, P_nodes):
     return interpolation_slope(h, h_nodes, P_nodes)
 
 
-def follow_potential(h, dP, dh, h_nodes, P_nodes):
+def follow_potential(h, dP, dh, guess, h_nodes, P_nodes):
     """Enthalpy h [J/kg], heat potential P [W/m] and slope dP/dh after P has changed by dP.
 
     From node to node the change is followed up to a plateau. There what is left of it turns into
@@ -65,8 +76,9 @@ def follow_potential(h, dP, dh, h_nodes, P_nodes):
 
     Args:
         h: enthalpy before. dP: change of the potential. dh: change of h on a plateau.
+        guess: segment of the curve in which h is looked for.
     """
-    low = segment(h, h_nodes)
+    low = segment_near(h, guess, h_nodes)
     last = len(h_nodes) - 2
     slope = (P_nodes[low + 1] - P_nodes[low]) / (h_nodes[low + 1] - h_nodes[low])
     # where the particle is now, by its potential

@@ -3,12 +3,14 @@
 import numpy as np
 import pytest
 
+from lasersph.compute.vectors import segment
 from lasersph.physics.conduction import enthalpy_rate
 from lasersph.physics.phase_change import (
     balanced_enthalpy,
     follow_potential,
     potential_slope,
     state,
+    state_near,
     thermal_state,
 )
 
@@ -32,7 +34,11 @@ V = np.zeros(4)
 )
 def test_state(h, expected):
     """Below, on, above the plateau, and beyond both ends, where the end segments continue."""
-    assert state(h, H, T, P, M, V) == pytest.approx((*expected, 0.0))
+    found = state(h, H, T, P, M, V)
+    assert found == pytest.approx((*expected, 0.0))
+    # the same with its segment, wherever that is looked for first
+    for guess in range(3):
+        assert state_near(h, guess, H, T, P, M, V) == (*found, segment(h, H))
     assert thermal_state(h, H, T, P) == pytest.approx(expected[:2])
 
 
@@ -83,24 +89,28 @@ def test_balanced_enthalpy_by_hand():
     ],
 )
 def test_followed(h, dP, dh, expected):
-    """A change of the potential, off and on the plateau from 2e5 to 4e5 J/kg."""
-    assert follow_potential(h, dP, dh, H, P) == pytest.approx(expected)
+    """A change of the potential, off and on the plateau from 2e5 to 4e5 J/kg, wherever the segment
+    is looked for first."""
+    found = [follow_potential(h, dP, dh, guess, H, P) for guess in range(3)]
+    assert found[0] == pytest.approx(expected)
+    assert found == 3 * [found[0]]
 
 
 def test_followed_across_corners():
     """Slopes 0.02, 0.002, 0.01: 1000 W/m to the corner, 2000 W/m to the next, 1000 W/m beyond."""
     H_range, P_range = np.array([0.0, 2e5, 1.2e6, 1.4e6]), np.array([0.0, 4e3, 6e3, 8e3])
-    there = follow_potential(1.5e5, 4000.0, 0.0, H_range, P_range)
+    there = follow_potential(1.5e5, 4000.0, 0.0, 0, H_range, P_range)
     assert there == pytest.approx((1.3e6, 7000.0, 0.01))
-    assert follow_potential(there[0], -4000.0, 0.0, H_range, P_range) == pytest.approx(
-        (1.5e5, 3e3, 0.02)
-    )
+    back = follow_potential(there[0], -4000.0, 0.0, 2, H_range, P_range)
+    assert back == pytest.approx((1.5e5, 3e3, 0.02))
 
 
 def test_followed_on_the_last_plateau():
     """A plateau without end, as at the vaporization temperature, takes up any rest."""
-    assert follow_potential(1e5, 9000.0, 0.0, H[:3], P[:3]) == pytest.approx((5.5e5, 4000.0, 0.0))
-    assert follow_potential(3e5, 0.0, 9e5, H[:3], P[:3]) == pytest.approx((1.2e6, 4000.0, 0.0))
+    assert follow_potential(1e5, 9000.0, 0.0, 0, H[:3], P[:3]) == pytest.approx(
+        (5.5e5, 4000.0, 0.0)
+    )
+    assert follow_potential(3e5, 0.0, 9e5, 1, H[:3], P[:3]) == pytest.approx((1.2e6, 4000.0, 0.0))
 
 
 def test_enthalpy_rate():

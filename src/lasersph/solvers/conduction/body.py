@@ -29,7 +29,7 @@ from lasersph.particles.layers import Layers
 from lasersph.particles.neighbor_lists import NeighborList, find_neighbors
 from lasersph.particles.particles import Particles
 from lasersph.particles.support import arithmetic, graded
-from lasersph.physics.phase_change import state
+from lasersph.physics.phase_change import state_near
 from lasersph.solvers.conduction.walls import walls_of
 from lasersph.sph.even_rings import RingPairs, ring_additions
 from lasersph.sph.face_weights import PairRows, pairs_beside, without_joined
@@ -57,8 +57,10 @@ class Body:
             (n,) sums over the pairs with Dirichlet faces of weight times P_w and times T_w.
             wall_power: (n,) power of prescribed fluxes [W per (3 - d) lengths].
         area: (n,) exposed cross-section of surface particles [m^(d-1)], 0 for all others.
-        tables: nodes of the caloric curve as tables of the backend. free: (n,) 1 for particles
-            whose pairs may be found anew, 0 for coarse columns and what they touch; None for all.
+        tables: nodes of the caloric curve as tables of the backend. segment: (n,) number of that of
+            the curve in which an enthalpy lay last, where it is looked for first. free: (n,) 1 for
+            particles whose pairs may be found anew, 0 for coarse columns and what they touch; None
+            for all.
     """
 
     backend: Backend
@@ -73,6 +75,7 @@ class Body:
     wall_power: Array
     area: Array
     tables: dict[str, Array]
+    segment: Array
     surroundings: Surroundings
     free: Array | None = None
     additions: Array | None = None
@@ -85,8 +88,9 @@ class Body:
     def update_temperature(self) -> None:
         """Set temperature, potential and fractions from the enthalpy."""
         particles = self.particles
-        out = tuple(particles[name] for name in DERIVED)
-        self.backend.pointwise(state, {"h": particles["enthalpy"]}, out, **self.tables)
+        fields = {"h": particles["enthalpy"], "guess": self.segment}
+        out = (*(particles[name] for name in DERIVED), self.segment)
+        self.backend.pointwise(state_near, fields, out, **self.tables)
 
 
 def assemble(
@@ -163,6 +167,7 @@ def assemble(
         wall_power=backend.asarray(walls.power),
         area=backend.asarray(area),
         tables={name: backend.asarray(nodes) for name, nodes in curve.tables.items()},
+        segment=backend.zeros(count),
         surroundings=boundaries.surroundings(material, curve.initial_temperature),
         free=free,
         additions=additions,

@@ -25,7 +25,13 @@ import numpy as np
 
 from lasersph.compute.array_types import Array, Rows
 from lasersph.compute.graph import graph
-from lasersph.compute.vectors import interpolate, interpolation_slope, same
+from lasersph.compute.vectors import (
+    interpolate,
+    interpolation_slope,
+    same,
+    segment_near,
+    value_in,
+)
 from lasersph.linear_solvers.conjugate_gradient import ConjugateGradient
 from lasersph.physics.phase_change import balanced_enthalpy, follow_potential, potential_slope
 from lasersph.solvers.conduction.body import HISTORY, Body
@@ -56,18 +62,24 @@ MAX_LINEAR = 400
 """Linear iterations of a Newton iteration at most. Guard: `dlip-steel --quick` takes 2.3."""
 
 
-def initial_guess(h, excess, h_old, h_older, ratio, near, far, h_nodes, P_nodes):
+def initial_guess(h, excess, h_old, h_older, guess, ratio, near, far, h_nodes, P_nodes):
     """Enthalpy, P and dP/dh extrapolated from three steps of P; on plateaus from two of h.
 
     Args:
-        ratio: step over the last one. near, far: weights of the last changes of the potential.
+        guess: segment of the curve in which they are looked for. ratio: step over the last one.
+        near, far: weights of the last changes of the potential.
     """
     start = h - excess
-    P_old = interpolate(h_old, h_nodes, P_nodes)
-    change = interpolate(start, h_nodes, P_nodes) - P_old
-    before = P_old - interpolate(h_older, h_nodes, P_nodes)
+    P_old = potential_near(h_old, guess, h_nodes, P_nodes)
+    change = potential_near(start, guess, h_nodes, P_nodes) - P_old
+    before = P_old - potential_near(h_older, guess, h_nodes, P_nodes)
     dP, dh = near * change + far * before, ratio * (start - h_old)
-    return follow_potential(start, dP, dh, h_nodes, P_nodes)
+    return follow_potential(start, dP, dh, guess, h_nodes, P_nodes)
+
+
+def potential_near(h, guess, h_nodes, P_nodes):
+    """Heat potential at enthalpy h, which is looked for in the segment number `guess`."""
+    return value_in(segment_near(h, guess, h_nodes), h, h_nodes, P_nodes)
 
 
 def balance(total, h0, P, E, q, m, S, a, B, s, h_nodes, P_nodes):
@@ -100,9 +112,9 @@ def linearize(h, slope, m, dq, s, h_nodes, T_nodes):
     return C / slope, 1.0 + 0.0 * h
 
 
-def move(h, dP, damping, h_nodes, P_nodes):
+def move(h, dP, guess, damping, h_nodes, P_nodes):
     """Enthalpy, P and dP/dh after a damped Newton step; on plateaus nothing moves."""
-    return follow_potential(h, damping * dP, 0.0, h_nodes, P_nodes)
+    return follow_potential(h, damping * dP, 0.0, guess, h_nodes, P_nodes)
 
 
 def close_balance(h, r, m, h0, excess, previous):
@@ -187,8 +199,8 @@ class ImplicitStep:
             near, far = ratio + bend / last, -bend / before
         # h on plateaus, P elsewhere, and dP/dh there
         weights = {"ratio": ratio, "near": near, "far": far}
-        out = (self.h, self.P, self.slope)
-        self.body.backend.pointwise(initial_guess, self.history, out, **weights, **self.curve)
+        fields, out = self.history | {"guess": self.body.segment}, (self.h, self.P, self.slope)
+        self.body.backend.pointwise(initial_guess, fields, out, **weights, **self.curve)
 
     def assemble(self, step: float) -> Rows | None:
         """Diagonal C and mask of Newton's matrix; returns the particles on plateaus, if any."""
@@ -257,7 +269,8 @@ class ImplicitStep:
     @graph
     def move(self, damping: float) -> None:
         """Enthalpy, potential and dP/dh after a damped step of Newton's iteration."""
-        fields, out = {"h": self.start, "dP": self.solver.solution}, (self.h, self.P, self.slope)
+        fields = {"h": self.start, "dP": self.solver.solution, "guess": self.body.segment}
+        out = (self.h, self.P, self.slope)
         self.body.backend.pointwise(move, fields, out, damping=damping, **self.curve)
 
     @graph
