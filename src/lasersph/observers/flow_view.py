@@ -97,6 +97,11 @@ class FlowView:
             return np.abs(self.surface_velocity)
         return np.sqrt(np.sum(self.surface_velocity**2, axis=0))
 
+    @property
+    def recoil_pressure(self) -> np.ndarray | None:
+        """(s,) recoil pressure of a free surface [Pa]; None where nothing is known of the vapor."""
+        return None if self.recoil is None else self.recoil(self.surface_temperature)
+
     def of_whole(self, images: int) -> Self:
         """The same with the heat through level sides of a computed half and its mirror image."""
         heat = {side: side_images(side, images) * heat for side, heat in self.wall_heat.items()}
