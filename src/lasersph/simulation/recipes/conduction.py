@@ -29,11 +29,11 @@ from lasersph.solvers.step_control import name_of_longest
 
 HeatT = TypeVar("HeatT", bound=HeatSettings)
 
-PRODUCTS = {"implicit": 6.0, "implicit in space": 2.0, "explicit": 2.0, "two": 150.0}
+PRODUCTS = {"implicit": 4.0, "implicit in space": 2.0, "explicit": 2.0, "two": 150.0}
 """Cost of a step of heat, in sums over all pairs: iterations of Newton and of conjugate gradients,
-the two stages, or six linear solves of two temperatures. Forecast: 2.4 Newton and 5.6 linear
-iterations of `dlip-steel --quick` over rows that are partly inactive; 20 a solve of two; in space
-as `dots-steel` and the steps of `texture-dots-steel` in which nothing flows."""
+the two stages, or six linear solves of two temperatures. Forecast: `dlip-steel` and
+`dlip-aluminium` take 3 to 5 by `benchmarks/forecasts.py`, with one and two threads; 20 a solve of
+two; in space as `dots-steel` and the steps of `texture-dots-steel` in which nothing flows."""
 RELAXING = 0.05
 """Step of two temperatures after the light, over the time since it. Forecast: `short-pulse-gold`
 takes 0.02 to 0.2."""
