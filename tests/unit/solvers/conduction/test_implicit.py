@@ -15,13 +15,13 @@ P = np.array([0.0, 4000.0, 4000.0, 8000.0])
 def test_guess_is_a_parabola_of_the_potential():
     """P = 100, 400, 900 W/m at equal steps goes on with 1600; the excess is left out."""
     h_older, h_old, h = (value / 0.02 for value in (100.0, 400.0, 900.0))
-    found = initial_guess(h + 7.0, 7.0, h_old, h_older, 1.0, 2.0, -1.0, H, P)
+    found = initial_guess(h + 7.0, 7.0, h_old, h_older, 0, 1.0, 2.0, -1.0, H, P)
     assert found == pytest.approx((1600.0 / 0.02, 1600.0, 0.02))
 
 
 def test_guess_on_a_plateau_is_a_line_of_the_enthalpy():
     """3.0e5, then 3.2e5 J/kg: 3.6e5 after a step twice as long."""
-    found = initial_guess(3.2e5, 0.0, 3.0e5, 2.9e5, 2.0, 9.0, -9.0, H, P)
+    found = initial_guess(3.2e5, 0.0, 3.0e5, 2.9e5, 1, 2.0, 9.0, -9.0, H, P)
     assert found == pytest.approx((3.6e5, 4000.0, 0.0))
 
 
