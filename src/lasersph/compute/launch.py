@@ -2,8 +2,8 @@
 
 A launch is a frame of 64-bit words: address of the loop, number of its blocks, threads, rows,
 number of reductions, addresses of how to reduce, of what the blocks have reduced and of the
-results; and from there on what the loop itself reads. Blocks are added up in their order, so that
-no result depends on the number of threads.
+results, and what it visits; and from there on what the loop itself reads. Blocks are added up in
+their order, so that no result depends on the number of threads.
 """
 
 from __future__ import annotations
@@ -27,9 +27,31 @@ _CODES = {"float64": "d", "float32": "f"}
 HOWS = ("sum", "max", "min")
 EMPTY = {"sum": 0.0, "max": float("-inf"), "min": float("inf")}
 """Reductions of no rows."""
-HEAD_WORDS, LIST_WORDS = 8, 3
+ANYTHING, ROWS, PAIRS, PAIRS_OF_ROWS = range(4)
+"""What a launch visits: anything, for which all its threads are woken, rows, all pairs of a list,
+or those of the rows that are run, which in a pool are few and hold nearly all pairs."""
+HEAD_WORDS, LIST_WORDS = 9, 3
 """Words of a frame before those of arrays, and of a list of pairs: begins, ends, neighbors."""
-RUN = f'''ZERO, ONE, TWO = np.uint64(0), np.uint64(1), np.uint64(2)
+RUN = f'''ZERO, ONE, TWO, SHARED = np.uint64(0), np.uint64(1), np.uint64(2), np.uint64({SHARED})
+
+
+def is_long(words):
+    """Whether a launch visits so much that threads are woken for it."""
+    visits, count, first = words[8], words[3], words[{HEAD_WORDS}]
+    if visits == np.uint64({ANYTHING}):
+        return True
+    if visits == np.uint64({ROWS}):
+        return count >= SHARED
+    if visits == np.uint64({PAIRS}):
+        return at_uint64(first)[count] >= SHARED
+    numbers = at_uint32(first)
+    begins, ends = at_uint64(words[{HEAD_WORDS + 1}]), at_uint64(words[{HEAD_WORDS + 2}])
+    pairs = ZERO
+    for k in range(count):
+        pairs += ends[numbers[k]] - begins[numbers[k]]
+        if pairs >= SHARED:
+            return True
+    return False
 
 
 def run(launch):
@@ -37,7 +59,7 @@ def run(launch):
     words = at_uint64(launch)
     blocks, threads, count, reduced = words[1], words[2], words[3], words[4]
     frame = launch + np.uint64({8 * HEAD_WORDS})
-    if threads == ONE:
+    if threads == ONE or not is_long(words):
         for block in range(blocks):
             invoke(words[0], block, count, frame)
     elif blocks > ZERO:
@@ -91,8 +113,7 @@ class Bound(NamedTuple):
     """A loop with its arguments.
 
     Attributes:
-        listed, rows: rows that there are, and that are run. visits: rows or, where there is a
-            list, pairs that it visits, about.
+        listed, rows: rows that there are, and that are run.
         lists: row numbers, begins and ends of rows, neighbors, as far as there are any.
         fields, outs, tables: arrays as wholes; an output is None where it is not stored.
         constants: by name, numbers or tuples of numbers.
@@ -101,7 +122,6 @@ class Bound(NamedTuple):
     compiled: Compiled
     listed: int
     rows: int
-    visits: int
     lists: list[np.ndarray]
     fields: list[np.ndarray]
     outs: list[np.ndarray | None]
@@ -161,9 +181,9 @@ class Launch:
     """
 
     def __init__(self, bound: Bound, threads: int, *, holds: bool) -> None:
-        compiled, listed, rows, visits, lists, fields, outs, tables, constants = bound
+        compiled, listed, rows, lists, fields, outs, tables, constants = bound
         self.reductions, self.places = compiled.reductions, compiled.places
-        self._block, self._threads, self._per_row = compiled.block, threads, visits / max(rows, 1)
+        self._block = compiled.block
         # memory of the constants, of what blocks reduce and of the results
         real = _CODES[compiled.real.name]
         reals, whole = compiled.numbers
@@ -179,12 +199,13 @@ class Launch:
         words = [
             compiled.entry,
             -(-rows // compiled.block),
-            1 if visits < SHARED else threads,
+            threads,
             rows,
             reduced,
             _address(compiled.hows),
             _address(self._partial),
             _address(self.results),
+            (ROWS, ROWS, ROWS, PAIRS, PAIRS_OF_ROWS)[len(lists)],
         ]
         # addresses of lists, fields, outputs and tables, in the order that the loop reads
         for one in lists:
@@ -225,7 +246,7 @@ class Launch:
 
     @property
     def threads(self) -> int:
-        """Threads that take part."""
+        """Threads that take part where it is long."""
         return self._frame[2]
 
     @property
@@ -247,9 +268,7 @@ class Launch:
         blocks = -(-count // self._block)
         if self.reductions and blocks > self._most_blocks:
             raise ValueError(f"{blocks} blocks of rows, room for {self._most_blocks}")
-        # blocks and rows; few rows are run by one thread
         frame[1], frame[3] = blocks, count
-        frame[2] = 1 if count * self._per_row < SHARED else self._threads
         frame[HEAD_WORDS] = address(rows)
 
     def number_places(self, name: str) -> list[int]:

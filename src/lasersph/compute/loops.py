@@ -151,7 +151,7 @@ class Loops:
 
     def _bound(self, given: Given) -> Bound:
         """The loop of a call with its arguments, all checked."""
-        listed, rows, visits, key = _checked(given, self.launcher)
+        listed, rows, key = _checked(given, self.launcher)
         loops = given.signature.loops
         compiled = loops.get(key)
         if compiled is None or not source.is_current(compiled.watched):
@@ -165,7 +165,6 @@ class Loops:
             compiled,
             listed,
             rows,
-            visits,
             [one for one in lists if one is not None],
             [given.arrays[symbols.index(symbol)] for symbol in compiled.arrays],
             given.outs,
@@ -307,8 +306,8 @@ def _periodic(period: tuple[float, ...], dimension: int) -> tuple[bool, ...]:
     return tuple([bool(width) for width in period or (0.0,) * dimension])
 
 
-def _checked(given: Given, launcher: Launcher) -> tuple[int, int, int, tuple]:
-    """Rows, rows to run, rows or pairs to visit, about, and the kinds of the arrays.
+def _checked(given: Given, launcher: Launcher) -> tuple[int, int, tuple]:
+    """Rows, rows to run, and the kinds of the arrays.
 
     Raises:
         ValueError: an array is too short or of the wrong type, or read while it is written.
@@ -357,8 +356,7 @@ def _checked(given: Given, launcher: Launcher) -> tuple[int, int, int, tuple]:
     listed = rows
     if active is not None:
         rows = _active(active, rows, launcher)
-    visits = rows if row_start is None else pairs * rows // max(listed, 1)
-    return listed, rows, visits, tuple(kinds)
+    return listed, rows, tuple(kinds)
 
 
 def _list_size(given: Given, pairs: int) -> tuple[int, int, int]:

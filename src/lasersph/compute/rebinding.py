@@ -23,12 +23,12 @@ import numpy as np
 
 from lasersph.compute import cache as folder
 from lasersph.compute.generate import NATIVE
-from lasersph.compute.launch import HEAD_WORDS, RUN, SHARED, Bound, Launch, Launcher
+from lasersph.compute.launch import HEAD_WORDS, RUN, Bound, Launch, Launcher
 from lasersph.compute.signature import Call, Signature
 
-HEAD, ENTRY = 8, 8
+HEAD, ENTRY = 7, 8
 """Words of the head of a plan, and of its entry for each field, output and table."""
-ONLY_BINDS = 7
+ONLY_BINDS = 6
 """Place in the head of what tells that a launch is not run when it is bound."""
 _INDEX, _OFFSET = np.dtype(np.uint32), np.dtype(np.uint64)
 _MANY = 2**62
@@ -83,13 +83,13 @@ def loop(plan_address, ones_address, frame_address):
     """Bind and run; the first word of `ones` tells whether that was possible."""
     plan, ones, frame = at_uint64(plan_address), at_uint64(ones_address), at_uint64(frame_address)
     ones[0] = ZERO
-    count, block, threads, capacity, is_values = plan[0], plan[1], plan[2], plan[3], plan[4]
+    count, block, capacity, is_values = plan[0], plan[1], plan[2], plan[3]
     active, row_start, row_end, neighbor, support = ones[1], ones[2], ones[3], ones[4], ones[5]
     fields, entries = ones_address + np.uint64(48), plan_address + np.uint64({8 * HEAD})
     there, total, pairs, known = ZERO, ZERO, ZERO, False
     place = np.uint64({HEAD_WORDS}) + (ONE if active else ZERO)
     if row_start:
-        if word(row_start + DTYPE) != plan[5] or word(neighbor + DTYPE) != plan[6]:
+        if word(row_start + DTYPE) != plan[4] or word(neighbor + DTYPE) != plan[5]:
             return
         there = length(row_start) - ONE
         pairs = at_uint64(word(row_start + DATA))[there]
@@ -99,7 +99,7 @@ def loop(plan_address, ones_address, frame_address):
         # a row ends where the list says, or with the next one
         frame[place], frame[place + ONE] = word(row_start + DATA), word(row_start + DATA) + WORD
         if row_end:
-            if word(row_end + DTYPE) != plan[5] or length(row_end) < there:
+            if word(row_end + DTYPE) != plan[4] or length(row_end) < there:
                 return
             frame[place + ONE] = word(row_end + DATA)
         frame[place + ONE + ONE] = word(neighbor + DATA)
@@ -141,7 +141,7 @@ def loop(plan_address, ones_address, frame_address):
     rows = there
     if active:
         rows = length(active)
-        if word(active + DTYPE) != plan[6]:
+        if word(active + DTYPE) != plan[5]:
             return
         numbers = at_uint32(word(active + DATA))
         largest = np.uint32(0)
@@ -152,9 +152,7 @@ def loop(plan_address, ones_address, frame_address):
         frame[{HEAD_WORDS}] = word(active + DATA)
     if (there + block - ONE) // block > capacity:
         return
-    visits = pairs * rows // max(there, ONE) if row_start else rows
     frame[1], frame[3] = (rows + block - ONE) // block, rows
-    frame[2] = ONE if visits < np.uint64({SHARED}) else threads
     for k in range(count):
         entry = at_uint64(entries + k * np.uint64({8 * ENTRY}))
         if entry[6]:
@@ -182,9 +180,7 @@ class Rebound:
     key: tuple | None = None
     _values: tuple | None = None
 
-    def __init__(
-        self, launch: Launch, bound: Bound, signature: Signature, threads: int, call: Call
-    ) -> None:
+    def __init__(self, launch: Launch, bound: Bound, signature: Signature, call: Call) -> None:
         compiled = bound.compiled
         self.watched = compiled.watched
         # for each array the number of entries that it must have, by where it is read
@@ -213,7 +209,7 @@ class Rebound:
         # are more now, a recorded launch may come to run them all
         capacity = -(-bound.listed // compiled.block) if compiled.reductions else _MANY
         is_values = call.shape == "pair_values"
-        head = [len(words) // ENTRY, compiled.block, threads, capacity, is_values]
+        head = [len(words) // ENTRY, compiled.block, capacity, is_values]
         self._plan = array("Q", [*head, id(_OFFSET), id(_INDEX), 0, *words])
         self._call = rebinding_function(compiled.real.name)
         self._places = self._plan.buffer_info()[0], launch.address
@@ -242,7 +238,7 @@ class Rebound:
 def rebindable(launcher: Launcher, bound: Bound, signature: Signature, call: Call) -> Launch:
     """Launch of a call that can take other arrays; it does not hold those that it has."""
     launch = launcher.launch(bound, holds=False)
-    launch.rebound = Rebound(launch, bound, signature, launcher.threads, call)
+    launch.rebound = Rebound(launch, bound, signature, call)
     return launch
 
 

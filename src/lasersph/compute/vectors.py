@@ -116,7 +116,7 @@ def segment(x, nodes):
 
 
 def segment_near(x, guess, nodes):
-    """`segment` of x, at once where that is number `guess`: a search takes 20 times as long."""
+    """`segment` of x, at once where that is number `guess`, without a search."""
     low = int(guess)
     if x < nodes[low] or x >= nodes[low + 1]:
         low = segment(x, nodes)

@@ -22,7 +22,7 @@ import numpy as np
 from lasersph.output.atomic import TEMPORARY_SUFFIX, replace_file
 from lasersph.output.errors import FolderRefused, OutputError, clear_errors
 
-CHECKPOINT_SCHEMA = 21
+CHECKPOINT_SCHEMA = 22
 """Raised whenever names or meaning of what solvers and observers keep change."""
 FIRST_LINE = b"lasersph checkpoint\n"
 NAME = re.compile(r"step-(\d{10})\.checkpoint")

@@ -115,6 +115,14 @@ FLOW = _table(
         is_kept=True,
     ),
     Field("flux_potential_before", "phi_old", "m^2/s", "the same one step before", is_kept=True),
+    Field(
+        "velocity_carried",
+        "v_carried",
+        "m/s",
+        "velocity after the transport of the last step",
+        "vector",
+        is_kept=True,
+    ),
     Field("was_fluid", "was_fluid", "1", "1 where it flowed one step ago", is_kept=True),
     Field(
         "has_moving_pairs",

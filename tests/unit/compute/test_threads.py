@@ -7,6 +7,14 @@ import pytest
 
 from lasersph import compute
 from lasersph.compute import launch, search
+from lasersph.compute.arguments import address
+from lasersph.compute.array_function import array_function
+
+LENGTH = """
+
+def length(number, frame, out):
+    out[0] = 1.0 if is_long(frame) else 0.0
+"""
 
 
 def flow(T_i, T_j, r_ij):
@@ -55,13 +63,26 @@ def test_bits_do_not_depend_on_threads():
 
 
 def test_short_loops_take_one_thread():
-    """Threads are woken only by a loop that takes longer than that, also where it is bound anew."""
-    compiled = launch.Compiled(
-        1, (), (), {}, (0, 0), (), launch.bytes_of(()), np.dtype(float), 512, ()
-    )
-    for visits, threads in ((launch.SHARED - 1, 1), (launch.SHARED, 2)):
-        bound = launch.Bound(compiled, 1000, 1000, visits, [], [], [], [], {})
-        assert launch.Launcher(2, "float64").launch(bound).threads == threads
+    """Threads are woken only where that many rows or pairs are visited, by rows that hold many
+    pairs as well, however few they are."""
+    is_long = array_function(launch.RUN.format(precision="float64") + LENGTH, "length")
+    length, least = np.zeros(1), launch.SHARED
+
+    def shares(kind, count, *lists):
+        frame = np.array([0, 1, 2, count, 0, 0, 0, 0, kind, *map(address, lists)], np.uint64)
+        is_long(frame, length)
+        return bool(length[0])
+
+    # rows, and all pairs of a list of four rows
+    assert not shares(launch.ROWS, least - 1)
+    assert shares(launch.ROWS, least)
+    begins = np.array([0, 0, 1, least, least], np.uint64)
+    assert shares(launch.PAIRS, 4, begins)
+    assert not shares(launch.PAIRS, 2, begins)
+    # rows 0 and 1 have one pair; row 2 has nearly all
+    few, most = np.array([0, 1], np.uint32), np.array([1, 2], np.uint32)
+    assert not shares(launch.PAIRS_OF_ROWS, 2, few, begins, begins[1:])
+    assert shares(launch.PAIRS_OF_ROWS, 2, most, begins, begins[1:])
 
 
 def test_number_of_threads():

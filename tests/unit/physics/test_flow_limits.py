@@ -25,13 +25,15 @@ def test_published():
 
 def test_corrected():
     """Advection 0.06 l/v = 223 ps, viscosity 0.05 l^2/nu = 10.9 ps, implicit 0.2 l^2/nu = 43.5 ps;
-    no heat and no capillary limit."""
+    no heat and no capillary limit; twice as much where melt passes between particles."""
     found = flow_limits("corrected", **STEEL, is_implicit=False)
     assert found["viscosity"] == pytest.approx(10.87e-12, rel=2e-3)
     assert "heat" not in found
     assert "capillary" not in found
     assert found["advection"] == pytest.approx(223.3e-12, rel=2e-3)
     assert flow_limits("corrected", **STEEL)["viscosity"] == pytest.approx(43.5e-12, rel=2e-3)
+    passing = flow_limits("corrected", **STEEL, is_passing=True)
+    assert passing["advection"] == pytest.approx(2.0 * found["advection"])
 
 
 def test_at_rest():

@@ -4,7 +4,7 @@ For sections (r, z). A ring that kept its mass would change its area in the plan
 particles would gather or part wherever the melt flows out or in. So they stay in their columns:
 
     particles     ride with the surface where it moves, and rest below a flat one    `RidingSurface`
-    fluxes        F_ij from v^n, without divergence; h and v that they carry         `transport`
+    fluxes        F_ij from v^n, without divergence; h and v of the middle of the step `transport`
     v*            viscosity with the hoop stress, body forces                        (68)
     p, v^(n+1)    pressure, its gradient of differences                              (69), (70)
     h^(n+1)       conduction between the same pairs                                  (64)
@@ -34,6 +34,8 @@ from lasersph.surface.riding_surface import Ride, RidingSurface
 class RingPool(MeltPool):
     """Solver of a run whose melt flows between particles that keep their radii; arguments of
     `MeltPool`."""
+
+    is_passing = True
 
     def __init__(
         self,
@@ -70,7 +72,7 @@ class RingPool(MeltPool):
         block.renew_pairs(self.position, self._rows_to_find(block, self.position))
         kinds.find_walls(block)
         # h and v that fluxes carry
-        self.transport.carry(flow, kinds, ride, step)
+        self.transport.carry(flow, kinds, ride, step, self.state.time_step)
         self.body.update_temperature()
         # viscosity and stress at the new temperatures
         flow.update_viscosity(self.particles["temperature"], self.kinds)

@@ -47,9 +47,12 @@ class MeltPool:
         heat: the solver of enthalpies. flow: velocity and pressure. domain: faces, surface, blocks.
         position: (d, n) of all particles [m]. kinds: of the particles. fluid_count: how many do.
         has_moved: whether anything flowed in the last step.
+        is_passing: whether particles keep their columns and the melt passes between them.
         spacing_min: smallest distance of two particles of the block [m].
         exchange: of a box with its faces.
     """
+
+    is_passing = False
 
     def __init__(
         self,
@@ -168,6 +171,7 @@ class MeltPool:
             density=liquid.density,
             surface_tension=liquid.surface_tension,
             is_implicit=self.settings.viscosity == "implicit",
+            is_passing=self.is_passing,
         )
         found |= self.domain.surface.time_step_limits()
         return limits | {name: limit for name, limit in found.items() if limit < np.inf}

@@ -8,9 +8,10 @@ moves and rest elsewhere, V_i their volumes and L_i what leaves through the surf
 volume that flows from i to j in a second [m^3/s], between melt and melt alone. phi makes it free of
 divergence, so that what is the same everywhere stays the same; it is sought from where the last two
 steps lead. What one particle gives its neighbor gets. a_ij is the value of the particle from which
-the melt comes, carried on by its gradient to the middle of the pair and of the step, within the
-range of both: of second order where a is smooth, and no new extreme [vanLeer1979]. Particles at
-rest that melt passes through are those of [Lind2016], without its kernels of fourth order.
+the melt comes in the middle of the step, as conduction and forces went on changing it
+[Bell1989], carried on by its gradient to the middle of the pair, within the range of both: of
+second order where a is smooth, and no new extreme [vanLeer1979]. Particles at rest that melt passes
+through are those of [Lind2016], without its kernels of fourth order.
 
 Beyond a surface that bends the ghosts of i and j are not each other's mirror images. Pairs across
 it pass on the part of the flux along r and that between both distances from the surface, which is
@@ -105,6 +106,15 @@ def closed_flux(flux_ij, g_ij, pool_i, pool_j, phi_i, phi_j):
     return flux_ij - g_ij * (phi_j - phi_i)
 
 
+def middle_values(h, h_old, v, v_carried, share):
+    """h and v in the middle of the step by what conduction and forces changed in the one before.
+
+    Args:
+        h_old, v_carried: after the transport of that step. share: half this step over that one.
+    """
+    return h + share * (h - h_old), v + share * (v - v_carried)
+
+
 def upstream(gives, a_i, a_j):
     """The value of the particle that gives: of i where `gives` is 1, of j where it is 0."""
     return gives * a_i + (1.0 - gives) * a_j
@@ -134,10 +144,10 @@ def exchange_terms(
     pool_j,
     phi_i,
     phi_j,
-    h_i,
-    h_j,
-    v_i,
-    v_j,
+    middle_h_i,
+    middle_h_j,
+    middle_v_i,
+    middle_v_j,
     grad_h_i,
     grad_h_j,
     grad_v_i,
@@ -146,8 +156,9 @@ def exchange_terms(
     tangent_j,
     half_step,
 ):
-    """`exchanged_values` of the closed flux."""
+    """`exchanged_values` of the closed flux, of the middle of the step."""
     F_ij = closed_flux(flux_ij, g_ij, pool_i, pool_j, phi_i, phi_j)
+    h_i, h_j, v_i, v_j = middle_h_i, middle_h_j, middle_v_i, middle_v_j
     return exchanged_values(
         F_ij, h_i, h_j, v_i, v_j, grad_h_i, grad_h_j, grad_v_i, grad_v_j, x_ij, tangent_j, half_step
     )
@@ -176,7 +187,7 @@ class Transport:
 
     def __init__(self, particles: Particles, volume: Array) -> None:
         self.backend, self.volume = particles.backend, volume
-        particles.add("flux_potential", "flux_potential_before")
+        particles.add("flux_potential", "flux_potential_before", "velocity_carried")
         self.h, self.v = particles["enthalpy"], particles["velocity"]
         self._potentials = particles["flux_potential"], particles["flux_potential_before"]
         self._h_before = particles["enthalpy_before"], particles["enthalpy_two_before"]
@@ -184,10 +195,17 @@ class Transport:
         self.flux = self._kept.of(0)
         self._block: RingBlock | RingTangentBlock | None = None
         self._passing = self.backend.zeros(self.v.shape)
+        self._carried = particles["velocity_carried"]
+        self._middle = self.backend.zeros(volume.shape[0]), self.backend.zeros(self.v.shape)
 
-    def carry(self, flow: Flow, kinds: ParticleKinds, ride: Ride, step: float) -> None:
+    def carry(
+        self, flow: Flow, kinds: ParticleKinds, ride: Ride, step: float, last_step: float
+    ) -> None:
         """Enthalpy and velocity after the melt has flowed for a step [s] between particles that
         have ridden with the surface.
+
+        Args:
+            last_step: the one before [s], 0 for none.
 
         Raises:
             NotConverged: phi is not found.
@@ -206,8 +224,10 @@ class Transport:
         # phi that closes the balance, from where the last two steps lead
         outcome = self._equation.solve(self._gathered, self._phi)
         outcome.refuse_above(LARGEST_RESIDUAL, "the balance of the fluxes")
-        # F, and what pairs exchange by it
-        self.exchange(block, kinds, ride.growth, step, 0.5 * step)
+        # F, and what pairs exchange by it; a longer step goes on as far as the last one went
+        share = 0.5 * min(step / last_step, 1.0) if last_step > 0.0 else 0.0
+        self.exchange(block, kinds, ride.growth, step, 0.5 * step, share)
+        self.backend.copy(self.v, self._carried)
 
     def _work_on(self, block: RingBlock | RingTangentBlock) -> None:
         """Work vectors for a block and its pairs."""
@@ -276,23 +296,30 @@ class Transport:
         growth: Array,
         step: float,
         half_step: float,
+        share: float,
     ) -> None:
         """h and v after the exchange of the pairs by the fluxes without divergence."""
-        ghosts = block.ghosts
-        fields = self._pair_fields(block, self.v)
+        ghosts, rows = block.ghosts, kinds.fluid_rows
+        # the melt in the middle of the step
+        before = dict(zip(("h_old", "h_older"), self._h_before, strict=True))
+        fields = {"h": self.h, "v": self.v, "v_carried": self._carried} | before
+        self.backend.pointwise(middle_values, fields, self._middle, rows=rows, share=share)
+        # what pairs exchange of it
+        h, v = self._middle
+        melt = self._pair_fields(block, v)
+        fields |= {"middle_h": block.gather(h), "middle_v": melt["v"], "pool": melt["pool"]}
         fields |= {"flux_ij": self.flux, "g_ij": block.weights, "phi": block.gather(self._phi)}
-        fields |= {"h": block.gather(self.h), "tangent": block.tangents}
+        fields |= {"tangent": block.tangents}
         fields |= {"grad_h": ghosts.mirror(self._grad_h)}
         fields |= {"grad_v": ghosts.extend_tensor(self._grad_v), "volume": self.volume}
         fields |= {"growth": growth, "measure": block.measure}
-        fields |= dict(zip(("h_old", "h_older"), self._h_before, strict=True))
         self.backend.pair_sum(
             exchange_terms,
             block.pairs,
             fields,
             (self.h, self.v, *self._h_before),
             finish=after_transport,
-            rows=kinds.fluid_rows,
+            rows=rows,
             step=step,
             half_step=half_step,
         )

@@ -16,6 +16,7 @@ from lasersph.solvers.melt_pool.transport import (
     extrapolated,
     flux_and_slope_terms,
     gathering_and_slopes,
+    middle_values,
     pair_flux,
 )
 from lasersph.solvers.step_control import NotConverged
@@ -109,6 +110,14 @@ def test_exchange_is_by_the_closed_flux():
     h, v = exchange_terms(2.0, 3.0, 1, 1, 1.0, 1.5, *values)
     assert h == 0.5 * 10.0
     assert v == pytest.approx(0.5 * UP)
+
+
+def test_melt_of_the_middle_of_the_step():
+    """Half of the change of the step before where both are as long: 10 after 8 goes on to 11."""
+    h, v = middle_values(10.0, 8.0, UP, 3.0 * UP, 0.5)
+    assert h == 11.0
+    assert v == pytest.approx([0.0, 0.0])
+    assert middle_values(10.0, 8.0, UP, 3.0 * UP, 0.0)[0] == 10.0
 
 
 def test_step_of_a_ring():
