@@ -1,14 +1,14 @@
 """Numbers of the flow that no paper gives, by what they do to a cavity and a dam break.
 
     python benchmarks/flow_numbers.py            the tables of docs/notes/2026-11-flow-numbers.md
-    python benchmarks/flow_numbers.py --only cavity, vortices, cubes, dam-break or speeds
+    python benchmarks/flow_numbers.py --only cavity, vortices, cubes, dam-break, speeds or spots
 
 The cavity under a moving lid at Re 400 with 20 particles a side, its center lines beside finite
 differences, for support ratios, factors of the shifting and shares of the advection limit; the
 energy of vortices in a cube at Re 50 for factors of the shifting, and for both gradients of the
 pressure; the front of a dam break with 10 and 20 particles in the width of the column; how much
 single particles move the speeds that are reported of a steady cavity under a surface that is warm
-in the middle.
+in the middle; the pool of a spot weld for shares of the advection limit of a section.
 """
 
 from __future__ import annotations
@@ -49,6 +49,16 @@ CUBES = (
 GRADIENTS = {"symmetric": SymmetricGradient, "differences": DifferenceGradient}
 EXACT = ((1.0, 0.8835378), (2.0, 0.7645278))
 """Time [s], and energy over that of the start: `validation/vortices_in_space/reference.csv`."""
+STUDIES = ("cavity", "vortices", "cubes", "dam-break", "speeds", "spots")
+SHARES = (0.03, 0.06, 0.12, 0.24)
+"""Shares of the advection limit where melt passes between particles."""
+POOL = {
+    "depth um": ("melt", "depth_half_max_m", 1e6),
+    "volume 1e6 um^3": ("melt", "volume_max_m3", 1e12),
+    "surface m/s": ("flow", "surface_speed_mean_max_m_s", 1.0),
+    "rms m/s": ("flow", "speed_rms_max_m_s", 1.0),
+}
+"""Room and key of the summary, and the factor to the unit, by quantity."""
 SPEEDS = ("flow_surface_speed_max_m_s", "flow_surface_speed_mean_m_s",
           "flow_speed_max_m_s", "flow_speed_rms_m_s")  # fmt: skip
 
@@ -123,10 +133,21 @@ def speeds(folder: Path, reynolds: float) -> str:
     return "  ".join(f"{100.0 * (np.max(v) / np.mean(v) - 1.0):.2f} %" for v in found)
 
 
+def weld(folder: Path, share: float) -> str:
+    """Size and speeds of the pool of a spot weld."""
+    flow_limits.PASSING = share
+    run(load_case("spot-weld", ["particles.spacing=6um"]), folder, threads=1)
+    found = open_run(folder).summary
+    numbers = (
+        f"{name} {factor * found[room][key]:.5g}" for name, (room, key, factor) in POOL.items()
+    )
+    return "  ".join(numbers) + f", {found['steps']} steps"
+
+
 def main() -> None:
     """Print the tables."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
-    parser.add_argument("--only", choices=("cavity", "vortices", "cubes", "dam-break", "speeds"))
+    parser.add_argument("--only", choices=STUDIES)
     only = parser.parse_args().only
     with tempfile.TemporaryDirectory() as place:
         if only in (None, "cavity"):
@@ -146,6 +167,9 @@ def main() -> None:
             print(*SPEEDS)
             for reynolds in (1.0, 200.0):
                 print(reynolds, speeds(Path(place) / f"speeds-{reynolds}", reynolds), flush=True)
+        if only in (None, "spots"):
+            for share in SHARES:
+                print(share, weld(Path(place) / f"spot-{share}", share), flush=True)
 
 
 if __name__ == "__main__":

@@ -28,8 +28,8 @@ HOWS = ("sum", "max", "min")
 EMPTY = {"sum": 0.0, "max": float("-inf"), "min": float("inf")}
 """Reductions of no rows."""
 ANYTHING, ROWS, PAIRS, PAIRS_OF_ROWS = range(4)
-"""What a launch visits: anything, for which all its threads are woken, rows, all pairs of a list,
-or those of the rows that are run, which in a pool are few and hold nearly all pairs."""
+"""Items that a launch visits: anything, for which all its threads are woken, rows, all pairs of a
+list, or those of the rows that are run, which in a pool are few and hold nearly all pairs."""
 HEAD_WORDS, LIST_WORDS = 9, 3
 """Words of a frame before those of arrays, and of a list of pairs: begins, ends, neighbors."""
 RUN = f'''ZERO, ONE, TWO, SHARED = np.uint64(0), np.uint64(1), np.uint64(2), np.uint64({SHARED})
