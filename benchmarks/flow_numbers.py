@@ -8,7 +8,8 @@ differences, for support ratios, factors of the shifting and shares of the advec
 energy of vortices in a cube at Re 50 for factors of the shifting, and for both gradients of the
 pressure; the front of a dam break with 10 and 20 particles in the width of the column; how much
 single particles move the speeds that are reported of a steady cavity under a surface that is warm
-in the middle; the pool of a spot weld for shares of the advection limit of a section.
+in the middle; the pool of a spot weld, and steady flows in a section below a bump of temperature,
+for shares of the advection limit of melt that passes between particles.
 """
 
 from __future__ import annotations
@@ -19,10 +20,11 @@ from pathlib import Path
 
 import numpy as np
 
-from lasersph import load_case, open_run, run
+from lasersph import compute, load_case, open_run, run
 from lasersph.physics import flow_limits
+from lasersph.simulation.recipes import recipe_of
 from lasersph.simulation.recipes.melt_pool import surfaces
-from lasersph.solvers.step_control import StepFailed
+from lasersph.solvers.step_control import StepFailed, choose_step
 from lasersph.surface.pressure_gradient import DifferenceGradient, SymmetricGradient
 from lasersph.validation.dam_break.rows import front_of
 from lasersph.validation.lid_driven_cavity.center_lines import center_line
@@ -52,6 +54,13 @@ EXACT = ((1.0, 0.8835378), (2.0, 0.7645278))
 STUDIES = ("cavity", "vortices", "cubes", "dam-break", "speeds", "spots")
 SHARES = (0.03, 0.06, 0.12, 0.24)
 """Shares of the advection limit where melt passes between particles."""
+SECTION = (
+    "domain.depth=1 um", "domain.width=2 um", "particles.spacing=62.5 nm", "time.end=10 us",
+    "boundaries.surface_temperature_bump={ amplitude = '100 K', radius = '1 um' }",
+    "solver.flow.right=no-slip", "solver.flow.surface=flat", "time.step=1 us",
+)  # fmt: skip
+STEADY, LEAST = 2e-6, 0.015
+"""Time when its flow is steady [s]; share that others are compared with."""
 POOL = {
     "depth um": ("melt", "depth_half_max_m", 1e6),
     "volume 1e6 um^3": ("melt", "volume_max_m3", 1e12),
@@ -135,13 +144,30 @@ def speeds(folder: Path, reynolds: float) -> str:
 
 def weld(folder: Path, share: float) -> str:
     """Size and speeds of the pool of a spot weld."""
-    flow_limits.PASSING = share
+    allow_passing(share)
     run(load_case("spot-weld", ["particles.spacing=6um"]), folder, threads=1)
     found = open_run(folder).summary
     numbers = (
         f"{name} {factor * found[room][key]:.5g}" for name, (room, key, factor) in POOL.items()
     )
     return "  ".join(numbers) + f", {found['steps']} steps"
+
+
+def allow_passing(share: float) -> None:
+    """Let steps be that share of l / v where melt passes between particles."""
+    flow_limits.ADVECTION = flow_limits.PASSING = share
+
+
+def steady_energy(viscosity: float, share: float) -> float:
+    """Kinetic energy of the steady flow in a section 1 um deep below a bump of 100 K [J]."""
+    case = load_case("spot-film", [*SECTION, f"material.viscosity={viscosity!r} Pa s"])
+    solver = recipe_of(case).build(compute.cpu(threads=1))
+    allow_passing(share)
+    while solver.state.time < STEADY:
+        _, step, unclipped_step = choose_step(solver.time_step_limits())
+        solver.step(step, unclipped_step)
+    v, volume = (np.asarray(one) for one in (solver.particles["velocity"], solver.flow.volume))
+    return float(0.5 * case.material.density_liquid * np.sum(volume * np.sum(v**2, axis=0)))
 
 
 def main() -> None:
@@ -170,6 +196,10 @@ def main() -> None:
         if only in (None, "spots"):
             for share in SHARES:
                 print(share, weld(Path(place) / f"spot-{share}", share), flush=True)
+            for viscosity in (2e-3, 2e-4):
+                energies = [steady_energy(viscosity, share) for share in (LEAST, *SHARES)]
+                more = (f"{100.0 * (E / energies[0] - 1.0):.2f} %" for E in energies[1:])
+                print(viscosity, *more, flush=True)
 
 
 if __name__ == "__main__":

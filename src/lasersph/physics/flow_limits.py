@@ -7,8 +7,9 @@
 l is the support radius, v the largest speed, f the largest acceleration by all forces together:
 pressure, viscosity with the stress of the surface in it, and buoyancy. Corrected: advection takes
 0.06 l / v, 0.23 spacings, since a pressure that acts for a whole step of 0.94 spacings loses 1 % of
-the energy of a vortex within a tenth of its turn; 0.12 l / v where melt passes between particles
-that keep their columns, whose fluxes are those of the middle of a step. Viscosity takes
+the energy of a vortex within a tenth of its turn; where melt passes between particles that keep
+their columns, with fluxes of the middle of a step, 0.12 l / v as far as that is no more than
+0.024 l^2 / nu. Viscosity takes
 0.05 l^2 / nu where it is explicit, since forward Euler with the SPH Laplacian diverges beyond
 0.0575 l^2 / nu, and 0.2 l^2 / nu where it is implicit: in boxes whose surface does not move the
 split of viscous forces from pressure errs within sqrt(nu dt) of the walls. Heat is implicit and has
@@ -25,10 +26,11 @@ eqs. (59), (76)], after [Monaghan1992]."""
 ADVECTION = 0.06
 """Share of l / v. Study: a pressure that acts for a whole step of 0.94 spacings takes 1 % of a
 vortex's energy within a tenth of its turn (`benchmarks/flow_numbers.py --only vortices`)."""
-PASSING = 0.12
-"""Share of l / v where melt passes between particles that keep their columns. Study: half of it
-changes depth, volume and mean speed of the pool of `spot-weld` by less than half a percent
-(`benchmarks/flow_numbers.py --only spots`)."""
+PASSING, SLOW_PASSING = 0.12, 0.024
+"""Shares of l / v and l^2 / nu where melt passes between particles that keep their columns. Study:
+half of the first changes depth and volume of the pool of `spot-weld` by less than half a percent;
+the energy of a steady flow is off by 1.3 % with it where v l / nu is 46, by 2.3 % where it is 1.9,
+which the second one keeps at 0.06 l / v and 1.0 % (`benchmarks/flow_numbers.py --only spots`)."""
 DIFFUSION, SPLIT = 0.05, 0.2
 """Shares of l^2 / nu that explicit and implicit viscosity are allowed. Stability: forward Euler
 with this Laplacian diverges beyond 0.0575 (von Neumann); in boxes whose surface does not move the
@@ -58,9 +60,7 @@ def flow_limits(
         is_passing: whether particles keep their columns and the melt passes between them.
     """
     is_published = rule == "published"
-    advection = PASSING if is_passing else ADVECTION
-    if is_published:
-        advection = PUBLISHED_ADVECTION
+    advection = PUBLISHED_ADVECTION if is_published else ADVECTION
     # common to both rules: advection and force
     limits = {
         "advection": advection * support / speed if speed else inf,
@@ -76,6 +76,10 @@ def flow_limits(
                 density * support**3 / (2.0 * pi * surface_tension)
             )
     else:
-        # corrected: viscosity alone, by how it is solved
+        # corrected: a longer step of fluxes in its middle, unless viscosity reaches far within it
+        if is_passing and speed:
+            longer = min(PASSING * support / speed, SLOW_PASSING * support**2 / viscosity)
+            limits["advection"] = max(limits["advection"], longer)
+        # viscosity alone, by how it is solved
         limits["viscosity"] = (SPLIT if is_implicit else DIFFUSION) * support**2 / viscosity
     return limits

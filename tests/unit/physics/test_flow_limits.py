@@ -25,15 +25,24 @@ def test_published():
 
 def test_corrected():
     """Advection 0.06 l/v = 223 ps, viscosity 0.05 l^2/nu = 10.9 ps, implicit 0.2 l^2/nu = 43.5 ps;
-    no heat and no capillary limit; twice as much where melt passes between particles."""
+    no heat and no capillary limit."""
     found = flow_limits("corrected", **STEEL, is_implicit=False)
     assert found["viscosity"] == pytest.approx(10.87e-12, rel=2e-3)
     assert "heat" not in found
     assert "capillary" not in found
     assert found["advection"] == pytest.approx(223.3e-12, rel=2e-3)
     assert flow_limits("corrected", **STEEL)["viscosity"] == pytest.approx(43.5e-12, rel=2e-3)
-    passing = flow_limits("corrected", **STEEL, is_passing=True)
-    assert passing["advection"] == pytest.approx(2.0 * found["advection"])
+
+
+def test_melt_that_passes():
+    """0.12 l/v, as far as that is 0.024 l^2/nu at most, and never less than 0.06 l/v."""
+    thin, thick, between = STEEL | {"viscosity": 1e-9}, STEEL, STEEL | {"viscosity": 1.6e-8}
+    found = [flow_limits("corrected", **one, is_passing=True) for one in (thin, thick, between)]
+    assert found[0]["advection"] == pytest.approx(446.6e-12, rel=2e-3)
+    assert found[1]["advection"] == pytest.approx(223.3e-12, rel=2e-3)
+    assert found[2]["advection"] == pytest.approx(0.024 * SUPPORT**2 / 1.6e-8)
+    published = flow_limits("published", **thin, is_passing=True)
+    assert published["advection"] == pytest.approx(931e-12, rel=2e-3)
 
 
 def test_at_rest():
