@@ -245,11 +245,6 @@ class Launch:
         return "float64" if self.numbers[0].typecode == "d" else "float32"
 
     @property
-    def threads(self) -> int:
-        """Threads that take part where it is long."""
-        return self._frame[2]
-
-    @property
     def results_address(self) -> int:
         """Where the reductions of a run go."""
         return self._frame[7]

@@ -43,11 +43,12 @@ FLOW_COST = {
 measured with two threads; below a surface that moves `texture-steel` at 8 and 5 nm, `spot-steel`,
 and `texture-dots-steel` at 64 and 48 nm, over the expected number of steps; boxes as shipped, and
 cubes of 24 to 48 a side."""
-FLAT_HEAT, FLAT_FLOW, FLAT_SECONDS = 3.0, 13e-6, 6.5e-3
+FLAT_PLANE, FLAT_SECTION = (3.0, 13e-6, 6.5e-3), (0.8, 5e-6, 4e-3)
 """Cost of a step below a flat surface in a plane or a section: products of all pairs for heat,
 seconds for each particle that flows, and seconds besides. Forecast: `benchmarks/forecasts.py` with
 `dlip-steel` at 8 and 16 nm and `dlip-aluminium` at 16 nm, one and two threads, 1.13 to 1.5 of the
-time taken; `spot-weld` at 6 um, whose implicit solves take fewer iterations, 2.7."""
+time taken; in a section, whose pairs stay and whose solves take fewer iterations, `spot-weld` at
+6 um on one thread, 1.04."""
 
 
 class MeltPoolRecipe(HeatRecipe[MeltPoolSettings, MeltPool]):
@@ -162,7 +163,9 @@ class MeltPoolRecipe(HeatRecipe[MeltPoolSettings, MeltPool]):
         if not self.case.surface_moves and not self.is_in_space:
             share = flowing_share(self.case, self.layers, self.heating or self.melt)
             flowing = share * self.layers.fine_count
-            return StepCost(FLAT_HEAT, FLAT_SECONDS + FLAT_FLOW * flowing)
+            is_section = self.case.geometry.is_axisymmetric
+            heat, each, besides = FLAT_SECTION if is_section else FLAT_PLANE
+            return StepCost(heat, besides + each * flowing)
         if not self.case.surface_moves:
             return FLOW_COST["flat in space"]
         return FLOW_COST["moving in space" if self.is_in_space else "moving"]
