@@ -206,11 +206,14 @@ def test_nothing_molten():
 
 
 def test_particle_without_weights():
-    """One that touches the pool but exchanges nothing: finite, and the residual says so."""
+    """One that touches the pool but exchanges nothing: finite, and the residual says so after more
+    iterations than the others need; far beyond, rounding of a pressure that grows may hide it."""
     backend = compute.cpu(threads=2)
     pairs = scattered(12)
     g = np.where((pairs.i == 50) | (pairs.j == 50), 0.0, pairs.g)
-    solver = PressureEquation(backend, pairs.count, pairs.support, tolerance=1e-8)
+    solver = PressureEquation(
+        backend, pairs.count, pairs.support, tolerance=1e-8, max_iterations=40
+    )
     g, one, volume = pairs.arrays(backend, g, np.ones(pairs.count), pairs.volume)
     solver.set_operator(pairs.neighbors(backend), g, one, volume)
     b = rough(pairs.count)
