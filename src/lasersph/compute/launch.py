@@ -195,7 +195,8 @@ class Launch:
         self._most_blocks = blocks
         self.results = array("d", bytes(8 * reduced))
         self._partial = array(real, bytes(compiled.real.itemsize * reduced * blocks))
-        # head of the frame, in the order that `RUN` reads
+        # head of the frame, in the order that `RUN` reads; what it visits follows from its lists,
+        # none or row numbers, those of pairs, or both
         words = [
             compiled.entry,
             -(-rows // compiled.block),

@@ -10,8 +10,8 @@ divergence, so that what is the same everywhere stays the same; it is sought fro
 steps lead. What one particle gives its neighbor gets. a_ij is the value of the particle from which
 the melt comes in the middle of the step, as conduction and forces went on changing it
 [Bell1989], carried on by its gradient to the middle of the pair, within the range of both: of
-second order where a is smooth, and no new extreme [vanLeer1979]. Particles at rest that melt passes
-through are those of [Lind2016], without its kernels of fourth order.
+second order where a is smooth, and no new extreme beyond those values [vanLeer1979]. Particles at
+rest that melt passes through are those of [Lind2016], without its kernels of fourth order.
 
 Beyond a surface that bends the ghosts of i and j are not each other's mirror images. Pairs across
 it pass on the part of the flux along r and that between both distances from the surface, which is
