@@ -105,7 +105,7 @@ def test_pressure(name):
     """At most 15 iterations to 1e-4, in less than a third of the time of either plain method."""
     backend = compute.cpu(threads=2)
     pool = Pool(backend, *POOLS[name])
-    equation = PressureEquation(backend, pool.count, SUPPORT, tolerance=TOLERANCE)
+    equation = PressureEquation(backend, pool.count, SUPPORT, SPACING, tolerance=TOLERANCE)
     arguments = (pool.folded, pool.weights, pool.mask, pool.volume)
     set_up = []
     for _ in range(4):
@@ -115,7 +115,7 @@ def test_pressure(name):
     outcome, time = timed(backend, equation, pool, 5)
 
     jacobi = PressureEquation(
-        backend, pool.count, SUPPORT, tolerance=TOLERANCE, max_iterations=9999
+        backend, pool.count, SUPPORT, SPACING, tolerance=TOLERANCE, max_iterations=9999
     )
     jacobi._correction = Diagonal(backend)  # pyright: ignore[reportAttributeAccessIssue]
     jacobi.set_operator(*arguments)
@@ -146,7 +146,7 @@ def test_iterations_do_not_follow_the_size():
     backend, iterations = compute.cpu(threads=2), {}
     for scale in SCALES:
         pool = Pool(backend, *(round(scale * length) for length in POOLS["aluminium"]))
-        equation = PressureEquation(backend, pool.count, SUPPORT, tolerance=TOLERANCE)
+        equation = PressureEquation(backend, pool.count, SUPPORT, SPACING, tolerance=TOLERANCE)
         equation.set_operator(pool.folded, pool.weights, pool.mask, pool.volume)
         outcome = equation.solve(pool.b, backend.zeros(pool.count))
         assert outcome.residual <= TOLERANCE

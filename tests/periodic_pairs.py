@@ -18,13 +18,15 @@ RATIO = 3.75
 class PeriodicPairs:
     """Pairs with weights g_ij [m^(d-2)] that are exact on a lattice for straight lines.
 
-    position: (d, n) [m]. neighbors, weights: on the backend. support: radius [m].
+    position: (d, n) [m]. neighbors, weights: on the backend. support: radius, spacing: of the
+    lattice [m].
     """
 
     position: np.ndarray
     neighbors: NeighborList
     weights: Any
     support: float
+    spacing: float
 
     @property
     def period(self):
@@ -65,4 +67,4 @@ def periodic_pairs(backend, dimension, side, *, jitter=0.0, seed=2):
     weights = backend.zeros(neighbors.neighbor.shape[0])
     V = np.full(count, 1.0 / np.sqrt(second_moment(shape, RATIO)) / count)
     backend.pair_values(weight, neighbors, {"V": backend.asarray(V)}, weights)
-    return PeriodicPairs(position, neighbors, weights, support)
+    return PeriodicPairs(position, neighbors, weights, support, 1.0 / side)

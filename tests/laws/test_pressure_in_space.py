@@ -16,7 +16,7 @@ def equation(backend, pairs, *, mask=None, coefficient=None, tolerance=1e-8):
     """Equation of the pairs with its operator set."""
     mask = np.ones(pairs.count) if mask is None else mask
     solver = PressureEquation(
-        backend, pairs.count, pairs.support, tolerance=tolerance, period=pairs.period
+        backend, pairs.count, pairs.support, pairs.spacing, tolerance=tolerance, period=pairs.period
     )
     coefficient = None if coefficient is None else backend.asarray(coefficient)
     one, volume = backend.asarray(mask), backend.asarray(pairs.volume)

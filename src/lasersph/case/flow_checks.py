@@ -36,6 +36,7 @@ def flow_problems(case: CaseContents) -> Iterator[tuple[str, str]]:
             "solver.pressure",
             '"published" is the matrix of a plane; write "multigrid", or dimensions = 2',
         )
+    yield from _frame(case, case.solver)
     yield from _heat_faces(case)
     if case.flow is None:
         yield from _pool(case, case.solver)
@@ -65,6 +66,31 @@ def _liquid(case: CaseContents, solver: MeltPoolSettings) -> Iterator[tuple[str,
             f'e.g. surface_tension_slope = "-0.4 mN/(m K)" {base}in [material], or marangoni = '
             "false in [solver]",
         )
+
+
+def _frame(case: CaseContents, solver: MeltPoolSettings) -> Iterator[tuple[str, str]]:
+    """Whether particles move or rest, where only one of both can be."""
+    is_section = case.geometry.is_axisymmetric
+    if solver.frame == "lagrangian" and is_section:
+        yield (
+            "solver.frame",
+            "particles of a section (r, z) keep their distances from the axis; leave it out",
+        )
+    if solver.frame != "eulerian" or is_section:
+        return
+    if case.surface_moves:
+        yield (
+            "solver.frame",
+            "below a surface that moves particles move with it; leave it out, or write "
+            'surface = "flat" in [solver.flow]',
+        )
+    if solver.pressure == "published":
+        yield (
+            "solver.pressure",
+            '"published" is the matrix of particles that move; leave it out',
+        )
+    if "shifting" in solver.model_fields_set and solver.shifting:
+        yield "solver.shifting", "particles that rest are not shifted; leave it out"
 
 
 def _heat_faces(case: CaseContents) -> Iterator[tuple[str, str]]:

@@ -1,9 +1,9 @@
 """Connected parts of a set of particles: pools and remnants that exchange nothing.
 
 Particles are connected where they lie in the same or in touching cells (corners included) of width
-`CELL` times the support radius: always where closer than that, never where farther than 2 sqrt(d)
-times as much in d dimensions, which for particles one spacing apart is contact. The cells are some
-hundreds, so that the host labels them, as parts of an image.
+`CELL` spacings: always where closer than that, never where farther than 2 sqrt(d) times as much in
+d dimensions, which for particles one spacing apart is contact, whatever their support. The cells
+are some hundreds, so that the host labels them, as parts of an image.
 """
 
 from __future__ import annotations
@@ -19,8 +19,9 @@ from lasersph.compute.backend import Backend
 from lasersph.linear_solvers.cells import Cells
 from lasersph.particles.neighbor_lists import members_of
 
-CELL = 0.35
-"""Width of a cell over the support radius; 1.3 spacings where the support is 3.75."""
+CELL = 0.35 * 3.75
+"""Width of a cell over the spacing. Geometry: a lattice fills every cell, as long as that is more
+than 1."""
 FEWEST = 4
 """Parts with fewer particles belong to no component."""
 SLICE, SLICES = 4096, 256
@@ -97,7 +98,7 @@ class Components:
     """Components of `count` particles.
 
     Args:
-        support: radius [m]. period: per axis [m], 0.0 where there is none.
+        spacing: of the particles [m]. period: per axis [m], 0.0 where there is none.
 
     Attributes:
         number: (n,) kind "index", component of each particle from 1 on, 0 for none.
@@ -105,11 +106,11 @@ class Components:
     """
 
     def __init__(
-        self, backend: Backend, count: int, support: float, period: Sequence[float] = (0.0, 0.0)
+        self, backend: Backend, count: int, spacing: float, period: Sequence[float] = (0.0, 0.0)
     ) -> None:
         self.backend, self.count = backend, 0
         self.number, self.mask = backend.zeros(count, "index"), backend.zeros(count)
-        self._cells = Cells(backend, count, CELL * support, period)
+        self._cells = Cells(backend, count, CELL * spacing, period)
         self._share, self._members = backend.zeros(0), members_of(backend, self.number, 1)
 
     def find(self, position: Array, mask: Array, boundary_coefficient: Array) -> None:

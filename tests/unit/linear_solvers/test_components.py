@@ -7,14 +7,14 @@ from lasersph.compute.cell_grid import CellGrid
 from lasersph.linear_solvers import components as components_module
 from lasersph.linear_solvers.components import Components, connected_parts
 
-SUPPORT = 3.75
+SPACING = 1.0
 
 
 def found(backend, position, mask=None, boundary_coefficient=None, period=(0.0, 0.0)):
     """Components of positions in spacings."""
     position = np.asarray(position, float)
     count = position.shape[1]
-    components = Components(backend, count, SUPPORT, period)
+    components = Components(backend, count, SPACING, period)
     mask = np.ones(count) if mask is None else mask
     boundary_coefficient = np.zeros(count) if boundary_coefficient is None else boundary_coefficient
     components.find(*(backend.asarray(v) for v in (position, mask, boundary_coefficient)))

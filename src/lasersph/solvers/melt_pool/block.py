@@ -106,7 +106,7 @@ class Block:
         self.near_melt = NearMelt(
             backend,
             self.layers.reach_of_melt,
-            self.layers.moving_support / lattice.weighing.ratio,
+            self.spacing,
             self._bounds,
             repeats=[period > 0.0 for period in conditions.periods],
         )
@@ -123,6 +123,11 @@ class Block:
         self.viscous_weights = self.weights
         self.correction = backend.zeros((dimension, dimension, count))
         self._folded = nothing
+
+    @property
+    def spacing(self) -> float:
+        """Of the particles that move [m]."""
+        return self.layers.moving_support / self.lattice.weighing.ratio
 
     @property
     def V(self) -> Array:

@@ -16,6 +16,7 @@ from lasersph.solvers.melt_pool.block import Block
 from lasersph.solvers.melt_pool.block_layers import SKIN, StaticParticleData
 from lasersph.solvers.melt_pool.face_conditions import FaceConditions
 from lasersph.solvers.melt_pool.particle_kinds import ParticleKinds
+from lasersph.solvers.melt_pool.passing_block import RestingBlock
 from lasersph.solvers.melt_pool.ring_block import RingBlock, RingTangentBlock
 from lasersph.solvers.melt_pool.tangent_block import TangentBlock
 from lasersph.solvers.step_control import StepFailed
@@ -30,8 +31,10 @@ MELT_MARGIN = 2.0
 """Depth of the rows below the deepest melt, in support radii. Geometry: edge and dummy particles
 lie within the first and second below the melt."""
 BLOCKS = {MIRROR: Block, TANGENT: TangentBlock}
+RESTING_BLOCKS: dict[str, type[Block]] = {MIRROR: RestingBlock}
 RING_BLOCKS: dict[str, type[Block]] = {MIRROR: RingBlock, TANGENT: RingTangentBlock}
-"""Blocks by how ghosts lie beyond the surface, of a plane and of a section (r, z)."""
+"""Blocks by how ghosts lie beyond the surface: of particles that move, of those that rest in a
+plane or in space, and of rings."""
 
 
 class PoolTooDeep(StepFailed):
@@ -62,6 +65,9 @@ def resting(mark, free):
 class PoolDomain:
     """Conditions at the faces, surface and blocks.
 
+    Args:
+        rests: whether particles keep their columns and the melt passes between them.
+
     Attributes:
         box: lower and upper end of each axis [m].
         layers: of the fine columns. spacing, support: of the particles that move [m].
@@ -80,6 +86,8 @@ class PoolDomain:
         enthalpy: Callable[[np.ndarray], np.ndarray],
         volume: Array,
         free: Array | None = None,
+        *,
+        rests: bool = False,
     ) -> None:
         self.backend, self.lattice, self._free = backend, lattice, free
         self.layers, self._ends = layers.fine_only, self._fluid_ends(layers)
@@ -92,7 +100,9 @@ class PoolDomain:
         self._bottom = np.cumsum(layers.thickness)
         self.fine_depth = layers.fine_depth
         self._starts = np.concatenate([[0], np.cumsum(np.prod(layers.columns, axis=0))])
-        blocks = RING_BLOCKS if lattice.geometry.is_axisymmetric else BLOCKS
+        blocks = RESTING_BLOCKS if rests else BLOCKS
+        if lattice.geometry.is_axisymmetric:
+            blocks = RING_BLOCKS
         self._block_type = blocks[surface.crossing]
         self.block_layers = 0
         self._block: Block | None = None

@@ -4,9 +4,10 @@ Velocities and pressures are fields of all particles, 0 where nothing flows. Eac
 of the algorithm; `solver` puts them in order. Deviations from the paper: gradient and pressure are
 those that the surface brings, and so is the time at which viscosity acts; see also `projection`.
 
-In pools, and below a surface that moves, the pressure of the step before acts with viscosity, and
-is taken back before the projection, which finds all of it again [Guermond2006]. Without
-it melt slips along solid and walls by dt grad p/rho, as the projection moves it after viscosity. So
+In pools, below a surface that moves, and where particles rest, the pressure of the step before acts
+with viscosity, and is taken back before the projection, which finds all of it again [Guermond2006].
+Without it melt slips along solid and walls by dt grad p/rho, as the projection moves it after
+viscosity. So
 
     nu d2u/dn2 = -b on a wall, where nothing accelerates under the force b, grad p/rho in it,
 
@@ -97,7 +98,8 @@ class Flow:
         # pressure acts after viscosity
         is_implicit = settings.viscosity == "implicit"
         self._has_rigid_walls = is_implicit and not is_box
-        self._has_pressure_force = is_implicit and (surface.moves or not is_box)
+        is_swinging = is_box and not surface.moves and not settings.rests
+        self._has_pressure_force = is_implicit and not is_swinging
         self._stiffness = backend.zeros(count)
 
         # of the block of particles that may move, from when anything flows

@@ -165,6 +165,10 @@ class GhostExtension:
         """Places (d, M) of particles at other positions (d, n), with their ghosts [m]."""
         return self._images_of(position, self._crosses_surface)
 
+    def unfold(self, position: Array) -> Array:
+        """Places (d, M) with those of the sources along the axes that are mirrored [m]."""
+        return self._extend(ghost_fields.unfolded_place, {"x": position, "sign": self._sign})
+
     def places_swapped(self, position: Array) -> Array:
         """Places (d, M) where all sources lie across the surface, and their ghosts there in the
         places of the sources [m]."""

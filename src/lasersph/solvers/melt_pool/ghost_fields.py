@@ -27,6 +27,13 @@ def ghost_position(source, ghost_type, x, shift, crosses_surface, sign, offset):
     return sign[ghost_type] * image + offset[ghost_type]
 
 
+def unfolded_place(source, ghost_type, place, x, sign):
+    """Place [m] with that of the source along the axes that are mirrored: where what crosses planes
+    comes back."""
+    far, near = place, x[source]
+    return 0.5 * (far + near + sign[ghost_type] * (far - near))
+
+
 def ghost_vector(source, ghost_type, a, normal, crosses_surface, sign):
     """Vector of the source as the planes between mirror it, S H a."""
     return sign[ghost_type] * reflected(a[source], normal[source], crosses_surface[ghost_type])

@@ -125,7 +125,7 @@ class PressureEquation:
     """Operator of the present particles, and the solver with its work vectors.
 
     Args:
-        count: particles of the block, n. support: support radius [m].
+        count: particles of the block, n. support, spacing: of them [m].
         tolerance: residual over right-hand side that ends the iteration (2-norms).
         max_iterations: where it ends anyhow. period: per axis [m], 0.0 where there is none.
         is_even: whether all particles have one volume.
@@ -139,6 +139,7 @@ class PressureEquation:
         backend: Backend,
         count: int,
         support: float,
+        spacing: float,
         *,
         tolerance: float,
         max_iterations: int = MAX_ITERATIONS,
@@ -146,7 +147,7 @@ class PressureEquation:
         is_even: bool = True,
     ) -> None:
         self.backend, self.tolerance, self.max_iterations = backend, tolerance, max_iterations
-        self.components = Components(backend, count, support, period)
+        self.components = Components(backend, count, spacing, period)
         self._correction = GridCorrection(backend, count, support, period)
         self._nothing, self._inner = backend.zeros(count), KeptArray(backend)
         self._is_even, self._volume = is_even, self._nothing

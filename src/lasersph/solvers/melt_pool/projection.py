@@ -80,6 +80,7 @@ class Projection:
                 backend,
                 count,
                 block.layers.moving_support,
+                block.spacing,
                 tolerance=self.tolerance,
                 period=block.conditions.periods,
                 is_even=not block.lattice.geometry.is_axisymmetric,

@@ -57,6 +57,12 @@ class MeltPoolSettings(HeatSettings):
         default="corrected",
         description="each limit by what it keeps stable, or all of [Demuth2020, eqs. (59), (76)]",
     )
+    frame: Literal["lagrangian", "eulerian"] | None = Field(
+        default=None,
+        exclude_if=lambda given: given is None,
+        description="particles move with the melt, or rest while it passes between them; default: "
+        "lagrangian, in sections (r, z) eulerian",
+    )
     shifting: Annotated[float, Field(ge=0, le=0.5)] = Field(
         default=0.04,
         description="factor C of the particle shifting [Demuth2020, eq. (73)]; 0 for none",
@@ -71,6 +77,11 @@ class MeltPoolSettings(HeatSettings):
         description="stop before the end once the flow is steady: range of its kinetic energy over "
         "the mean, while the fastest particle crosses the width five times",
     )
+    @property
+    def rests(self) -> bool:
+        """Whether particles keep their columns and the melt passes between them."""
+        return self.geometry == "axisymmetric" or self.frame == "eulerian"
+
     flow: FlowConditions | None = Field(
         default=None,
         description="only for a closed box that is all fluid; without it what is molten flows",

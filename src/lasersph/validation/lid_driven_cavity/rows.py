@@ -30,6 +30,7 @@ def compare(study: Study) -> None:
                 study, reynolds, line, {n: found[line.component] for n, found in lines.items()}
             )
         add_vortex(study, reynolds, runs[counts[-1]])
+        add_moving(study, reynolds, reference, first)
         draw(study, reynolds, reference, lines)
         # Misprints of the table are named.
         for line in reference.values():
@@ -92,6 +93,18 @@ def add_rows(study: Study, reynolds: int, line: CenterLine, found: dict[int, np.
     good = line.inner & ~line.is_misprint
     printed = np.sqrt(np.mean((line.ghia - line.value)[good] ** 2))
     study.add("printed", 100.0 * printed, **names)
+
+
+def add_moving(
+    study: Study, reynolds: int, reference: dict[str, CenterLine], first: float
+) -> None:
+    """The same of particles that move with the liquid, as those of a pool do."""
+    for n in study.plan.moving:
+        moving = ("solver.frame=lagrangian", "solver.shifting=0.01")
+        one = study.run(f"re{reynolds}-{n}-moving", *settings(study, reynolds, n), *moving)
+        for component, values in lines_of(one, reference, first).items():
+            error = 100.0 * deviation(reference[component], values)
+            study.add("moving", error, count=n, Re=reynolds, component=component)
 
 
 def add_vortex(study: Study, reynolds: int, one: Run) -> None:

@@ -12,12 +12,14 @@ from lasersph.solvers.melt_pool.transport import (
     after_transport,
     closed_flux,
     exchange_terms,
-    exchanged_values,
+    exchanged_enthalpy,
+    exchanged_velocity,
     extrapolated,
     flux_and_slope_terms,
     gathering_and_slopes,
     middle_values,
     pair_flux,
+    value_beyond,
 )
 from lasersph.solvers.step_control import NotConverged
 
@@ -74,42 +76,65 @@ def test_potential_closes_a_flux():
     assert closed_flux(0.0, 3.0, 1, 2, 1.0, 1.5) == 0.0
 
 
-def exchanged(flow, slope=0.0):
-    """What a pair one apart along z exchanges: h = 1 and 2, v = 0; i below j, upstream by sign."""
-    tensor = np.zeros((2, 2))
+WAY = np.array([0.0, -1.0])  # from j down to i, one apart
+
+
+def exchanged(gives, slope=0.0):
+    """h that a pair one apart along z exchanges: 1 and 2, at rest; i below j."""
     rise = np.array([0.0, slope])
-    way = np.array([0.0, -1.0])
-    return exchanged_values(flow, 1.0, 2.0, STILL, STILL, rise, rise, tensor, tensor, way, 0.0, 0.1)
+    return exchanged_enthalpy(gives, 1.0, 2.0, rise, rise, STILL, STILL, WAY, STILL, 0.1)
 
 
 def test_melt_takes_along_what_it_comes_from():
     """Without slopes h of the giver; with the slope of both the middle; no more than either."""
-    assert exchanged(3.0)[0] == 3.0
-    assert exchanged(-3.0)[0] == -6.0
-    assert exchanged(3.0, slope=1.0)[0] == pytest.approx(3.0 * 1.5)
-    assert exchanged(-3.0, slope=1.0)[0] == pytest.approx(-3.0 * 1.5)
-    assert exchanged(3.0, slope=9.0)[0] == 6.0
+    assert exchanged(1.0) == 1.0
+    assert exchanged(0.0) == 2.0
+    assert exchanged(1.0, slope=1.0) == exchanged(0.0, slope=1.0) == pytest.approx(1.5)
+    assert exchanged(1.0, slope=9.0) == 2.0
 
 
-def test_both_sides_of_a_pair_exchange_the_same():
-    """Seen from j the flux has the other sign, and the values are those of i."""
-    tensor = np.array([[0.5, 0.1], [0.2, -0.5]])
+def test_velocity_is_carried_on_beyond_both():
+    """A slope of 9/s over half of a way of one: 4.5 m/s, between two that rest; the mean of both
+    across a plane."""
+    steep = np.array([[0.0, 0.0], [0.0, 9.0]])
+    carried = exchanged_velocity(1.0, 1.0, STILL, STILL, steep, steep, WAY, 0.1)
+    assert carried == pytest.approx([0.0, 4.5])
+    mean = exchanged_velocity(1.0, 0.5, STILL, 2.0 * UP, steep, steep, WAY, 0.1)
+    assert mean == pytest.approx(UP)
+
+
+def both_sides(mirrored=0.0, tangent=0.0):
+    """h and v times flux of a pair, seen from i and from j."""
+    T, half_step = np.array([[0.5, 0.1], [0.2, -0.5]]), 0.1
     one, other = (1.0, np.array([1.0, 0.5]), np.array([0.3, 0.7])), (2.0, UP, np.array([0.1, 0.9]))
-    way = np.array([0.4, -1.0])
+    way, marks = np.array([0.4, -1.0]), (mirrored, tangent, half_step)
     (h_i, v_i, g_i), (h_j, v_j, g_j) = one, other
-    there = exchanged_values(2.0, h_i, h_j, v_i, v_j, g_i, g_j, tensor, 2 * tensor, way, 0.0, 0.1)
-    back = exchanged_values(-2.0, h_j, h_i, v_j, v_i, g_j, g_i, 2 * tensor, tensor, -way, 0.0, 0.1)
+    closed, back = (2.0, 3.0, 1, 1, 1.0, 1.5), (-2.0, 3.0, 1, 1, 1.5, 1.0)
+    there = (h_i, h_j, v_i, v_j, v_i, v_j, g_i, g_j, T, 2 * T, way, way, STILL)
+    here = (h_j, h_i, v_j, v_i, v_j, v_i, g_j, g_i, 2 * T, T, -way, STILL, way)
+    return exchange_terms(*closed, *there, *marks), exchange_terms(*back, *here, *marks)
+
+
+@pytest.mark.parametrize("marks", [{}, {"mirrored": 1.0}, {"tangent": 1.0}])
+def test_both_sides_of_a_pair_exchange_the_same(marks):
+    """Seen from j the flux has the other sign, and the values are those of i."""
+    there, back = both_sides(**marks)
     assert there[0] == -back[0]
-    assert np.array_equal(there[1], -back[1])
+    assert there[1] == pytest.approx(-back[1], abs=0.0)
 
 
 def test_exchange_is_by_the_closed_flux():
-    """2 m^3/s less a weight of three times a rise of one half: h of the giver, a fourth as much."""
-    tensor, none = np.zeros((2, 2)), np.zeros(2)
-    values = (10.0, 20.0, UP, STILL, none, none, tensor, tensor, np.array([0.0, -1.0]), 0.0, 0.1)
-    h, v = exchange_terms(2.0, 3.0, 1, 1, 1.0, 1.5, *values)
-    assert h == 0.5 * 10.0
-    assert v == pytest.approx(0.5 * UP)
+    """2 m^3/s less a weight of three times a rise of one half is a half: of h and v of the giver
+    beyond a surface that bends."""
+    there, _ = both_sides(tangent=1.0)
+    assert there[0] == 0.5 * 1.0
+    assert there[1] == pytest.approx(0.5 * np.array([1.0, 0.5]))
+
+
+def test_enthalpy_beyond_a_wall_of_given_temperature():
+    """That of the wall, 3, lies between 1 and 5; beyond another one it is mirrored."""
+    assert value_beyond(1.0, 1.0, 3.0) == 5.0
+    assert value_beyond(1.0, 0.0, 3.0) == 1.0
 
 
 def test_melt_of_the_middle_of_the_step():

@@ -18,10 +18,10 @@ from lasersph.solvers.conduction.solver import Conduction
 from lasersph.solvers.conduction.walls import wall_enthalpy, wall_potential
 from lasersph.solvers.melt_pool.block_layers import StaticParticleData
 from lasersph.solvers.melt_pool.domain import PoolDomain
+from lasersph.solvers.melt_pool.eulerian_pool import EulerianPool
 from lasersph.solvers.melt_pool.flow import Flow
 from lasersph.solvers.melt_pool.flow_terms import PLANE, RINGS
 from lasersph.solvers.melt_pool.liquid import Liquid
-from lasersph.solvers.melt_pool.ring_pool import RingPool
 from lasersph.solvers.melt_pool.settings import MeltPoolSettings
 from lasersph.solvers.melt_pool.solver import MeltPool
 from lasersph.surface.moving_surface import MovingSurface
@@ -48,6 +48,7 @@ def with_flow(case: Case, settings: MeltPoolSettings, layers: Layers, heat: Cond
         lambda T: wall_enthalpy(curve, T),
         body.particles["volume"],
         body.free,
+        rests=settings.rests,
     )
     is_section = case.geometry.is_axisymmetric
     bodies = backend.zeros(body.count) if is_section else body.particles["volume"]
@@ -55,7 +56,7 @@ def with_flow(case: Case, settings: MeltPoolSettings, layers: Layers, heat: Cond
     flow = Flow(
         *(body.particles, liquid, surface, settings, layers.spacing, bodies, terms), is_box=is_box
     )
-    pool = RingPool if is_section else MeltPool
+    pool = EulerianPool if settings.rests else MeltPool
     solver = pool(heat, flow, domain, settings, case.pause)
 
     # A box starts with the velocity of its case; a block is laid out below its first surface.

@@ -101,7 +101,7 @@ def flow_forecast(
         density=density,
         surface_tension=float(material.surface_tension_at(T)) if has_gamma else 0.0,
         is_implicit=solver.viscosity == "implicit",
-        is_passing=case.geometry.is_axisymmetric,
+        is_passing=solver.rests,
     )
 
     # Capillary waves limit steps where the surface moves.

@@ -1,16 +1,19 @@
-"""`RingPool`: a pool whose particles keep their radii, and whose melt passes from one to the next.
+"""`EulerianPool`: a pool whose particles keep their columns, and whose melt passes from one to the
+next.
 
-For sections (r, z). A ring that kept its mass would change its area in the plane as 1/r, so that
-particles would gather or part wherever the melt flows out or in. So they stay in their columns:
+For sections (r, z), and for boxes and flat pools whose case says so. A ring that kept its mass
+would change its area in the plane as 1/r, so that particles would gather or part wherever the melt
+flows out or in. In a plane they may move or stay; those that stay need no shifting, which takes
+from a flow what it cannot resolve, and keep their pairs.
 
     particles     ride with the surface where it moves, and rest below a flat one    `RidingSurface`
     fluxes        F_ij from v^n, without divergence; h and v of the middle of the step `transport`
-    v*            viscosity with the hoop stress, body forces                        (68)
-    p, v^(n+1)    pressure, its gradient of differences                              (69), (70)
+    v*            viscosity, of rings with the hoop stress, body forces              (68)
+    p, v^(n+1)    pressure and its gradient                                          (69), (70)
     h^(n+1)       conduction between the same pairs                                  (64)
 
-No particle is shifted. Below a surface that moves, positions, pairs and forces are those of the
-middle of the step, as the line of the surface is then.
+Below a surface that moves, positions, pairs and forces are those of the middle of the step, as the
+line of the surface is then.
 """
 
 from __future__ import annotations
@@ -23,7 +26,7 @@ import numpy as np
 from lasersph.solvers.conduction.solver import Conduction
 from lasersph.solvers.melt_pool.domain import PoolDomain
 from lasersph.solvers.melt_pool.flow import Flow
-from lasersph.solvers.melt_pool.ring_block import RingBlock, RingTangentBlock
+from lasersph.solvers.melt_pool.passing_block import PassingBlock
 from lasersph.solvers.melt_pool.settings import MeltPoolSettings
 from lasersph.solvers.melt_pool.solver import MeltPool
 from lasersph.solvers.melt_pool.transport import Transport
@@ -31,8 +34,8 @@ from lasersph.surface.columns import OwnColumns, product
 from lasersph.surface.riding_surface import Ride, RidingSurface
 
 
-class RingPool(MeltPool):
-    """Solver of a run whose melt flows between particles that keep their radii; arguments of
+class EulerianPool(MeltPool):
+    """Solver of a run whose melt flows between particles that keep their columns; arguments of
     `MeltPool`."""
 
     is_passing = True
@@ -56,7 +59,7 @@ class RingPool(MeltPool):
         self._size_bodies()
 
     def _size_bodies(self) -> None:
-        """Volumes of the rings [m^3] from those of the particles [m^2]."""
+        """Volumes of the bodies, of rings [m^3], from those of the particles [m^2]."""
         fields = {"a": self.particles["volume"], "b": self._lengths}
         self.backend.pointwise(product, fields, self.flow.volume)
 
@@ -65,7 +68,7 @@ class RingPool(MeltPool):
         v; find the operators there."""
         domain, flow, kinds = self.domain, self.flow, self.kinds
         block = domain.block_for(self.position, kinds)
-        assert isinstance(block, RingBlock | RingTangentBlock)
+        assert isinstance(block, PassingBlock)
         flow.set_block(block)
         # particles and pairs at the middle of the step
         ride = self._ride(step)
