@@ -23,7 +23,7 @@ from lasersph.solvers.melt_pool.published.pressure_equation import PublishedPres
 from lasersph.sph.kernels import kernel
 from lasersph.sph.laplacian import weight
 
-SUPPORT = 3.75
+SPACING, SUPPORT = 1.0, 3.75
 POOLS = {"steel": (330, 55), "aluminium": (450, 265), "thin": (250, 10)}
 TOLERANCE = 1e-4
 SCALES, MORE = (0.5, 1.0, 2.0), 3

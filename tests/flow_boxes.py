@@ -18,14 +18,16 @@ PERIODIC_HEAT = {"sides": "periodic", "bottom": "periodic", "surface": "periodic
 
 def box_case(
     *, flow=None, heat=None, cells=10, width=1.0, depth=1.0, end=1.0, step=0.01, material=None,
-    steady=None, domain=None, **settings,
+    steady=None, domain=None, support=None, **settings,
 ):  # fmt: skip
     """Case of a box of unit liquid: nu = a = 0.01 m^2/s, `cells` particles a meter."""
     return Case.model_validate(
         {
             "material": MATERIAL | (material or {}), "initial_temperature": 300.0,
             "domain": {"width": width, "depth": depth} | (domain or {}),
-            "particles": {"spacing": 1.0 / cells, "arrangement": "uniform"},
+            "particles": {
+                "spacing": 1.0 / cells, "arrangement": "uniform", "support_ratio": support,
+            },
             "boundaries": heat or {},
             "solver": {
                 "kind": "melt-pool", "flow": LID if flow is None else flow, "steady": steady,

@@ -22,6 +22,9 @@ BAD_FLOW_CASES = {
     "gravity upward": (GRAVITY, 'gravity = "-10 m/s^2"', ':29: solver.gravity: must be at least 0, got "-10 m/s^2"'),
     "unknown pressure solver": (KIND, KIND + '\npressure = "publishd"', ':29: solver.pressure: must be "multigrid" or "published", got "publishd"; do you mean "published"?'),
     "pressure solved to nothing": (KIND, KIND + "\npressure_tolerance = 0", ":29: solver.pressure_tolerance: must be greater than 0, got 0"),
+    "unknown frame": (KIND, KIND + '\nframe = "euler"', ':29: solver.frame: must be "lagrangian" or "eulerian", got "euler"; do you mean "eulerian"?'),
+    "particles at rest that are shifted": (KIND, KIND + '\nframe = "eulerian"\nshifting = 0.02', ":30: solver.shifting: particles that rest are not shifted; leave it out"),
+    "published pressure of particles at rest": (KIND, KIND + '\nframe = "eulerian"\npressure = "published"', ':30: solver.pressure: "published" is the matrix of particles that move; leave it out'),
     "too much shifting": (KIND, KIND + "\nshifting = 3", ":29: solver.shifting: must be at most 0.5, got 3"),
     "a box that melts": ("[material]\n", '[material]\nbase = "steel-304-demuth"\n', ':28: solver.phase_change: a box of [solver.flow] is all fluid, but "steel-304-demuth" melts; write phase_change = false'),
     # sides

@@ -76,6 +76,7 @@ VALUES: dict[str, tuple[str, ...]] = {
     "solver.pressure_tolerance": ("0.1",),
     "solver.viscosity": ("explicit",),
     "solver.step_limits": ("published",),
+    "solver.frame": ("eulerian",),
     "solver.shifting": ("0.4",),
     "solver.gravity": ("1e6 m/s^2",),
     "solver.steady": ("0.9",),

@@ -16,11 +16,15 @@ MOVED = {
     "sound-wave": "motion is solver.motion",
 }
 
+SINCE = {"lid-driven-cavity": ("solver.frame=", "solver.shifting=0.01")}
+"""What shipped cases ask for otherwise since then, as it was."""
+
 
 @pytest.mark.parametrize("name", MOVED)
 def test_the_same_case(name):
     """Equal in every key to the shipped one, and said what moved; today's file says nothing."""
-    old, new = load_case(FOLDER / f"{name}.toml"), load_case(name)
+    since = SINCE.get(name, ())
+    old, new = load_case(FOLDER / f"{name}.toml"), load_case(name, since)
     assert old.hash() == new.hash()
     assert old.conversion_note == f"read as schema version 2: {MOVED[name]}"
     assert new.conversion_note == ""

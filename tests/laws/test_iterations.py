@@ -67,7 +67,9 @@ def test_pressure():
         pairs = scattered(side, jitter=0.15, mirrors=(LEFT, TOP))
         x, z = pairs.position
         noise = np.random.default_rng(1).standard_normal(pairs.count)
-        solver = PressureEquation(backend, pairs.count, pairs.support, pairs.spacing, tolerance=1e-4)
+        solver = PressureEquation(
+            backend, pairs.count, pairs.support, pairs.spacing, tolerance=1e-4
+        )
         g, one, volume = pairs.arrays(backend, pairs.g, np.ones(pairs.count), pairs.volume)
         solver.set_operator(pairs.neighbors(backend), g, one, volume)
         b = backend.asarray(np.cos(3.0 * x) + np.sin(5.0 * z) + 0.3 * noise)

@@ -86,6 +86,10 @@ def test_kind_may_be_left_out():
         (("domain.breadth=5 um",), "domain.breadth: says nothing in 2-D, which has no y"),
         (("boundaries.front=adiabatic",), "boundaries.front: says nothing in 2-D, which has no y"),
         ((*SPACE, "solver.pressure=published"), 'solver.pressure: "published" is the matrix of'),
+        (
+            ("solver.frame=eulerian", "solver.flow.surface=moving"),
+            "solver.frame: below a surface that moves particles move with it; leave it out",
+        ),
         (("solver.viscosity=explicit", "time.end=1 s"), "solver.viscosity: 1.02e-06 m^2/s needs"),
         (("solver.viscosities=explicit",), 'solver.viscosities: unknown key; do you mean "visc'),
         (("solver.steady=0",), "solver.steady: must be greater than 0"),

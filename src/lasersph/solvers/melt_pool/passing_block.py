@@ -27,10 +27,11 @@ class PassingBlock(Block):
 
     Attributes:
         measure: (M,) what a cell stands for: 2 pi r of rings [m], else 1 [1]; of ghosts that of
-            their sources. mirrored: (M,) 1 for images beyond planes. unfolded: (d, M) places with those
-            of the sources along the axes that are mirrored [m]. tangents: (M,) 1 for the ghost
-            of a particle across the tangent of a surface that moves, 2 for that of its image beyond
-            a side, 0 for all others. beyond_axis: (M,) 1 for images beyond the axis of rings.
+            their sources. mirrored: (M,) 1 for images beyond planes. unfolded: (d, M) places, of
+            images those of the sources along the axes that are mirrored [m]. tangents: (M,) 1 for
+            the ghost of a particle across the tangent of a surface that moves, 2 for that of its
+            image beyond a side, 0 for all others. beyond_axis: (M,) 1 for images beyond the axis
+            of rings.
     """
 
     def __init__(self, *args: Any, **options: Any) -> None:
@@ -56,7 +57,7 @@ class PassingBlock(Block):
         return before
 
     def _adapt_weights(self, position: Array) -> None:
-        """What ghosts have of their sources and of their types."""
+        """Give ghosts what they have of their sources and of their types."""
         super()._adapt_weights(position)
         of_type = self.ghosts.of_type
         self.unfolded = self._renewed(self.unfolded, self.ghosts.unfold(position))

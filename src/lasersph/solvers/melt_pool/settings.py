@@ -77,12 +77,12 @@ class MeltPoolSettings(HeatSettings):
         description="stop before the end once the flow is steady: range of its kinetic energy over "
         "the mean, while the fastest particle crosses the width five times",
     )
-    @property
-    def rests(self) -> bool:
-        """Whether particles keep their columns and the melt passes between them."""
-        return self.geometry == "axisymmetric" or self.frame == "eulerian"
-
     flow: FlowConditions | None = Field(
         default=None,
         description="only for a closed box that is all fluid; without it what is molten flows",
     )
+
+    @property
+    def rests(self) -> bool:
+        """Whether particles keep their columns and the melt passes between them."""
+        return self.geometry == "axisymmetric" or self.frame == "eulerian"

@@ -31,13 +31,13 @@ from __future__ import annotations
 from lasersph.compute.array_types import Array, Constants
 from lasersph.compute.graph import graph
 from lasersph.compute.kept_array import KeptArray
-from lasersph.compute.vectors import dot, matmul, matvec, outer, transpose, vector
+from lasersph.compute.vectors import dot, matmul, matvec, outer, transpose
 from lasersph.particles.particles import Particles
 from lasersph.solvers.melt_pool.flow import Flow
 from lasersph.solvers.melt_pool.particle_kinds import ParticleKinds
 from lasersph.solvers.melt_pool.particle_shifting import clip_to_range
-from lasersph.solvers.melt_pool.pressure_equation import PressureEquation
 from lasersph.solvers.melt_pool.passing_block import PassingBlock
+from lasersph.solvers.melt_pool.pressure_equation import PressureEquation
 from lasersph.surface.riding_surface import Ride
 
 TOLERANCE = 1e-6
@@ -141,15 +141,15 @@ def exchanged_enthalpy(gives, h_i, h_j, grad_h_i, grad_h_j, w_i, w_j, y_i, y_j, 
         y, w: places [m] and velocities [m/s]; of images those of the sources, since melt that
             crosses a plane comes back.
     """
-    way = (0.5 - gives) * (y_i - y_j) - half_step * upstream(gives, w_i, w_j)
-    h = upstream(gives, h_i, h_j) + dot(upstream(gives, grad_h_i, grad_h_j), way)
+    displacement = (0.5 - gives) * (y_i - y_j) - half_step * upstream(gives, w_i, w_j)
+    h = upstream(gives, h_i, h_j) + dot(upstream(gives, grad_h_i, grad_h_j), displacement)
     return clip_to_range(h, h_i, h_j, h_j)
 
 
 def exchanged_velocity(gives, share, v_i, v_j, grad_v_i, grad_v_j, x_ij, half_step):
     """v that a pair exchanges [m/s], by a share of i: that of the giver, or the mean of both."""
-    way = (0.5 - share) * x_ij - half_step * upstream(gives, v_i, v_j)
-    return upstream(share, v_i, v_j) + matvec(upstream(gives, grad_v_i, grad_v_j), way)
+    displacement = (0.5 - share) * x_ij - half_step * upstream(gives, v_i, v_j)
+    return upstream(share, v_i, v_j) + matvec(upstream(gives, grad_v_i, grad_v_j), displacement)
 
 
 def exchange_terms(
@@ -303,9 +303,7 @@ class Transport:
         )
 
     @graph
-    def find_balance(
-        self, block: PassingBlock, kinds: ParticleKinds, growth: Array
-    ) -> None:
+    def find_balance(self, block: PassingBlock, kinds: ParticleKinds, growth: Array) -> None:
         """Volume that would gather in each particle, the slopes of h and v there, and the first
         guess of phi."""
         fields = self._pair_fields(block, self.v)

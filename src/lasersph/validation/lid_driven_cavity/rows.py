@@ -95,9 +95,7 @@ def add_rows(study: Study, reynolds: int, line: CenterLine, found: dict[int, np.
     study.add("printed", 100.0 * printed, **names)
 
 
-def add_moving(
-    study: Study, reynolds: int, reference: dict[str, CenterLine], first: float
-) -> None:
+def add_moving(study: Study, reynolds: int, reference: dict[str, CenterLine], first: float) -> None:
     """The same of particles that move with the liquid, as those of a pool do."""
     for n in study.plan.moving:
         moving = ("solver.frame=lagrangian", "solver.shifting=0.01")

@@ -38,17 +38,19 @@ FLOW_COST = {
     "moving": StepCost(18.0, 20e-3),
     "moving in space": StepCost(24.6, 46e-3),
     "box": StepCost(25.0, 6e-3),
+    "box at rest": StepCost(18.0, 3e-3),
 }
 """Cost of a step in which something flows, a part of the block or all of a box. Forecast: as
 measured with two threads; below a surface that moves `texture-steel` at 8 and 5 nm, `spot-steel`,
-and `texture-dots-steel` at 64 and 48 nm, over the expected number of steps; boxes as shipped, and
-cubes of 24 to 48 a side."""
-FLAT_PLANE, FLAT_SECTION = (3.0, 13e-6, 6.5e-3), (0.8, 5e-6, 4e-3)
-"""Cost of a step below a flat surface in a plane or a section: products of all pairs for heat,
-seconds for each particle that flows, and seconds besides. Forecast: `benchmarks/forecasts.py` with
-`dlip-steel` at 8 and 16 nm and `dlip-aluminium` at 16 nm, one and two threads, 1.13 to 1.5 of the
-time taken; in a section, whose pairs stay and whose solves take fewer iterations, `spot-weld` at
-6 um on one thread, 1.04."""
+and `texture-dots-steel` at 64 and 48 nm, over the expected number of steps; boxes of particles that
+move as shipped, and cubes of 24 to 48 a side; of particles that rest 0.6 of it in a cavity, all of
+it in a cube and with natural convection."""
+FLAT_MOVING, FLAT_RESTING = (3.0, 13e-6, 6.5e-3), (0.8, 5e-6, 4e-3)
+"""Cost of a step below a flat surface, of particles that move or rest: products of all pairs for
+heat, seconds for each particle that flows, and seconds besides. Forecast: `benchmarks/forecasts.py`
+with `dlip-steel` at 8 and 16 nm and `dlip-aluminium` at 16 nm, one and two threads, 1.13 to 1.5 of
+the time taken; at rest, where pairs stay and solves take fewer iterations, `spot-weld` at 6 um on
+one thread, 1.04."""
 
 
 class MeltPoolRecipe(HeatRecipe[MeltPoolSettings, MeltPool]):
@@ -159,12 +161,12 @@ class MeltPoolRecipe(HeatRecipe[MeltPoolSettings, MeltPool]):
         if stage != "flow":
             return super().cost_of(stage)
         if self.case.flow is not None:
-            return FLOW_COST["box"]
+            is_resting = self.settings.rests and not self.case.surface_moves
+            return FLOW_COST["box at rest" if is_resting else "box"]
         if not self.case.surface_moves and not self.is_in_space:
             share = flowing_share(self.case, self.layers, self.heating or self.melt)
             flowing = share * self.layers.fine_count
-            is_section = self.case.geometry.is_axisymmetric
-            heat, each, besides = FLAT_SECTION if is_section else FLAT_PLANE
+            heat, each, besides = FLAT_RESTING if self.settings.rests else FLAT_MOVING
             return StepCost(heat, besides + each * flowing)
         if not self.case.surface_moves:
             return FLOW_COST["flat in space"]
