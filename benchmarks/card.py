@@ -85,7 +85,8 @@ def iterations_of(backend: Backend, most: float) -> Iterator[Timed]:
 def steps_of(backend: Backend, most: float) -> Iterator[Timed]:
     """Steps of a lid-driven cube."""
     for side in SIDES:
-        case = load_case("lid-driven-cube", [f"particles.spacing={1.0 / side} m"])
+        settings = ["solver.frame=lagrangian", f"particles.spacing={1.0 / side} m"]
+        case = load_case("lid-driven-cube", settings)
         solver: Any = recipe_of(case).build(backend)
         times = []
         for _ in range(WARM + STEPS):

@@ -1,6 +1,6 @@
 """Where the time of a step on a graphics card goes: kernels, gaps between them, waiting, copies.
 
-    python benchmarks/card_steps.py lid-driven-cube particles.spacing=0.01m
+    python benchmarks/card_steps.py lid-driven-cube solver.frame=lagrangian particles.spacing=0.01m
     python benchmarks/card_steps.py texture-dots-steel --until 40ns --steps 5
 
 Each kernel is measured by two events around it, which a kernel of no work shows to be some 5 us

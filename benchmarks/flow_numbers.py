@@ -77,6 +77,7 @@ def cavity(folder: Path, ratio: float, shifting: float, advection: float) -> str
     settings = [
         f"particles.spacing={1.0 / COUNT!r} m",
         f"particles.support_ratio={ratio}",
+        "solver.frame=lagrangian",
         f"solver.shifting={shifting}",
         f"material.kinematic_viscosity={1.0 / REYNOLDS!r} m^2/s",
         f"time.end={END} s",

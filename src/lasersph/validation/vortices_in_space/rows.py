@@ -43,7 +43,7 @@ def vortices_of(reynolds: int, count: int, shifting: float, end: float) -> tuple
         *("solver.flow.initial.kind=taylor-green", "solver.flow.initial.speed=1 m/s"),
         *(f"solver.flow.initial.period={side!r} m", "solver.steady="),
         f"material.kinematic_viscosity={1.0 / reynolds!r} m^2/s",
-        *(f"solver.shifting={shifting}", f"time.end={end!r} s"),
+        *("solver.frame=lagrangian", f"solver.shifting={shifting}", f"time.end={end!r} s"),
         f"output.snapshots.interval={end!r} s",
     )
 
