@@ -35,7 +35,7 @@ from lasersph.validation.vortices_in_space.rows import vortices_of as cube_of
 
 COUNT, REYNOLDS, END = 20, 400, 35.0
 SHIPPED = (3.1, 0.01, 0.06)
-"""Support ratio and shifting of the shipped cavity, share of the advection limit."""
+"""Support ratio, shifting of particles that move, share of the advection limit."""
 CAVITIES = (
     SHIPPED, (3.75, 0.01, 0.06), (3.1, 0.04, 0.06), (3.75, 0.04, 0.06), (3.1, 0.01, 0.25),
     (3.1, 0.0, 0.06), (3.1, 0.01, 0.12), (2.6, 0.01, 0.06),
