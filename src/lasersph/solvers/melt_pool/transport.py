@@ -11,9 +11,8 @@ steps lead. What one particle gives its neighbor gets. a_ij is the value of the 
 the melt comes in the middle of the step, as conduction and forces went on changing it
 [Bell1989], carried on by its gradient to the middle of the pair: of second order where a is smooth.
 h stays within the range of both, so that no new extreme appears [vanLeer1979]; v does not, since
-a layer along a wall is as steep as an extreme is, and would be thinned out (Re 400, 50 a side:
--4.3 % of the speed along a wall instead of -1.9 %). Particles at rest that melt passes through are
-those of [Lind2016], without its kernels of fourth order.
+a thin layer along a wall is as steep as an extreme is, and would be slowed down. Particles at rest
+that melt passes through are those of [Lind2016], without its kernels of fourth order.
 
 What crosses a plane comes back. v along a wall and h at a wall of given temperature have a bend
 there: their gradients see the value of the wall between a particle and its image. Pairs across it
