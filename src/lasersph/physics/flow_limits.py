@@ -29,8 +29,9 @@ vortex's energy within a tenth of its turn (`benchmarks/flow_numbers.py --only v
 PASSING, SLOW_PASSING = 0.12, 0.024
 """Shares of l / v and l^2 / nu where melt passes between particles that keep their columns. Study:
 half of the first changes depth and volume of the pool of `spot-weld` by less than half a percent;
-the energy of a steady flow is off by 1.3 % with it where v l / nu is 46, by 2.3 % where it is 1.9,
-which the second one keeps at 0.06 l / v and 1.0 % (`benchmarks/flow_numbers.py --only spots`)."""
+the energy of a steady flow was off by 1.3 % with it where v l / nu is 46, by 2.3 % where it is 1.9,
+which the second one keeps at 0.06 l / v and 1.0 % (`benchmarks/flow_numbers.py --only spots`,
+before the gradients of the fluxes saw the stress of the surface)."""
 DIFFUSION, SPLIT = 0.05, 0.2
 """Shares of l^2 / nu that explicit and implicit viscosity are allowed. Stability: forward Euler
 with this Laplacian diverges beyond 0.0575 (von Neumann); in boxes whose surface does not move the
