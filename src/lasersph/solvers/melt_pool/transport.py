@@ -1,18 +1,24 @@
 """`Transport`: melt that passes between particles that keep their columns, and what it takes along.
 
-    F_ij = 2 pi r_ij A_i (u_i + u_j) . G_ij - g_ij (phi_j - phi_i),    sum_j F_ij = -dV_i/dt - L_i
-    d(V_i a_i)/dt = - sum_j F_ij a_ij - L_i a_i                    for a = h and v
+    F_ij = g_ij (u_i + u_j) . (x_j - x_i)/2 - g_ij (phi_j - phi_i),    sum_j F_ij = -dV_i/dt - L_i
+    d(V_i a_i)/dt = - sum_j F_ij a_ij - L_i a_i                        for a = h and v
 
 with u the velocity of the melt over that of the particles, which ride with the surface where it
 moves and rest elsewhere, V_i their volumes and L_i what leaves through the surface. F_ij is the
-volume that flows from i to j in a second [m^3/s], between melt and melt alone. phi makes it free of
+volume that flows from i to j in a second [m^3/s], between melt and melt alone; g_ij are the weights
+of pressure and conduction, so that a linear velocity flows exactly. phi makes it free of
 divergence, so that what is the same everywhere stays the same; it is sought from where the last two
-steps lead. What one particle gives its neighbor gets. a_ij is the value of the particle from which
-the melt comes in the middle of the step, as conduction and forces went on changing it
-[Bell1989], carried on by its gradient to the middle of the pair: of second order where a is smooth.
-h stays within the range of both, so that no new extreme appears [vanLeer1979]; v does not, since
-a thin layer along a wall is as steep as an extreme is, and would be slowed down. Particles at rest
-that melt passes through are those of [Lind2016], without its kernels of fourth order.
+steps lead. What one particle gives its neighbor gets.
+
+a_ij is the value of the particle from which the melt comes in the middle of the step, as conduction
+and forces went on changing it [Bell1989] and as the flow has carried it for half a step; its slope
+takes it on to the middle of the pair. So it is of second order where a is smooth. h goes on by its
+gradient, and stays within the range of both, so that no new extreme appears [vanLeer1979]. v goes
+on by the slope on the side that the melt comes from, twice that of its gradient less that of the
+pair [Warming1976]: what this overshoots in layers along walls, sums over a kernel smooth. It is not
+clipped, since a thin layer along a wall is as steep as an extreme is, and would be slowed down.
+Particles at rest that melt passes through are those of [Lind2016], without its kernels of fourth
+order.
 
 What crosses a plane comes back. v along a wall and h at a wall of given temperature have a bend
 there: their gradients see the value of the wall between a particle and its image. Pairs across it
@@ -53,39 +59,24 @@ def passing_velocity(v, w):
 
 
 def pair_flux(
-    v_i,
-    v_j,
-    pool_i,
-    pool_j,
-    V_i,
-    measure_i,
-    measure_j,
-    G_ij,
-    g_ij,
-    beyond_j,
-    source_i,
-    source_j,
-    tangent_j,
-    u,
-    place,
-    distance,
+    v_i, v_j, pool_i, pool_j, g_ij, x_ij, source_i, source_j, tangent_j, u, place, distance
 ):
-    """Volume that flows from i to j [m^3/s] within a pool, 0 across the axis.
+    """Volume that flows from i to j [m^3/s] within a pool.
 
     Args:
-        v: of the melt over the particles, as ghosts mirror it [m/s]. beyond, tangent: see `Rings`.
+        v: of the melt over the particles, as ghosts mirror it [m/s]. tangent: see `PassingBlock`.
             u, place, distance: tables of that velocity, of places and of distances from the
             surface.
     """
-    if pool_i == 0 or pool_i != pool_j or beyond_j > 0.0 or tangent_j > 1.0:
-        return 0.0 * V_i
+    if pool_i == 0 or pool_i != pool_j or tangent_j > 1.0:
+        return 0.0 * g_ij
     if tangent_j > 0.0:
-        # V_i G_ij = g_ij (x_j - x_i)/2, and what the tangent at one of both turns, mirrored
+        # what the tangent at one of both turns, mirrored
         u_i, u_j = u[source_i], u[source_j]
         along = (u_i[0] + u_j[0]) * (place[source_j][0] - place[source_i][0])
         across = (u_i[1] - u_j[1]) * (distance[source_i] + distance[source_j])
         return 0.5 * g_ij * (along + across)
-    return 0.5 * (measure_i + measure_j) * V_i * dot(v_i + v_j, G_ij)
+    return -0.5 * g_ij * dot(v_i + v_j, x_ij)
 
 
 def flux_and_slope_terms(flux_ij, h_i, h_j, v_i, v_j, pool_i, pool_j, G_ij):
@@ -112,13 +103,17 @@ def closed_flux(flux_ij, g_ij, pool_i, pool_j, phi_i, phi_j):
     return flux_ij - g_ij * (phi_j - phi_i)
 
 
-def middle_values(h, h_old, v, v_carried, share):
-    """h and v in the middle of the step by what conduction and forces changed in the one before.
+def middle_values(h, h_old, v, v_carried, u, grad_h, grad_v, share, half_step):
+    """h in the middle of the step, by what conduction changed in the one before; h and v there by
+    what the flow carries to the particle, too.
 
     Args:
-        h_old, v_carried: after the transport of that step. share: half this step over that one.
+        h_old, v_carried: after the transport of that step. u: of the melt over the particle [m/s].
+            share: half this step over that one.
     """
-    return h + share * (h - h_old), v + share * (v - v_carried)
+    h_middle, way = h + share * (h - h_old), -half_step * u
+    v_middle = v + share * (v - v_carried)
+    return h_middle, h_middle + dot(grad_h, way), v_middle + matvec(grad_v, way)
 
 
 def upstream(share, a_i, a_j):
@@ -132,23 +127,23 @@ def value_beyond(h, dirichlet, wall_enthalpy):
     return h + 2.0 * dirichlet * (wall_enthalpy - h)
 
 
-def exchanged_enthalpy(gives, h_i, h_j, grad_h_i, grad_h_j, w_i, w_j, y_i, y_j, half_step):
-    """h that a pair exchanges [J/kg]: that of the giver, carried on along the way of the melt to
-    the middle of the pair, half a step before, within the range of both.
+def exchanged_enthalpy(gives, h_i, h_j, low, high, grad_h_i, grad_h_j, y_ij):
+    """h that a pair exchanges [J/kg]: that of the giver, carried on to the middle of the pair,
+    within a range.
 
     Args:
-        y, w: places [m] and velocities [m/s]; of images those of the sources, since melt that
-            crosses a plane comes back.
+        y_ij: place of i less that of j [m], of images those of the sources, since melt that crosses
+            a plane comes back.
     """
-    displacement = (0.5 - gives) * (y_i - y_j) - half_step * upstream(gives, w_i, w_j)
-    h = upstream(gives, h_i, h_j) + dot(upstream(gives, grad_h_i, grad_h_j), displacement)
-    return clip_to_range(h, h_i, h_j, h_j)
+    rise = dot(upstream(gives, grad_h_i, grad_h_j), (0.5 - gives) * y_ij)
+    return clip_to_range(upstream(gives, h_i, h_j) + rise, low, high, high)
 
 
-def exchanged_velocity(gives, share, v_i, v_j, grad_v_i, grad_v_j, x_ij, half_step):
-    """v that a pair exchanges [m/s], by a share of i: that of the giver, or the mean of both."""
-    displacement = (0.5 - share) * x_ij - half_step * upstream(gives, v_i, v_j)
-    return upstream(share, v_i, v_j) + matvec(upstream(gives, grad_v_i, grad_v_j), displacement)
+def exchanged_velocity(gives, v_i, v_j, grad_v_i, grad_v_j, x_ij):
+    """v that a pair exchanges [m/s]: that of the giver, carried on to the middle of the pair by the
+    slope on its far side."""
+    far = 2.0 * matvec(upstream(gives, grad_v_i, grad_v_j), x_ij) - (v_i - v_j)
+    return upstream(gives, v_i, v_j) + (0.5 - gives) * far
 
 
 def exchange_terms(
@@ -160,10 +155,10 @@ def exchange_terms(
     phi_j,
     middle_h_i,
     middle_h_j,
-    middle_v_i,
-    middle_v_j,
-    w_i,
-    w_j,
+    carried_h_i,
+    carried_h_j,
+    carried_v_i,
+    carried_v_j,
     grad_h_i,
     grad_h_j,
     grad_v_i,
@@ -173,20 +168,20 @@ def exchange_terms(
     y_j,
     mirrored_j,
     tangent_j,
-    half_step,
 ):
     """h and v of the middle of the step that a pair exchanges, times its closed flux."""
-    h_i, h_j, v_i, v_j = middle_h_i, middle_h_j, middle_v_i, middle_v_j
+    h_i, h_j, v_i, v_j = carried_h_i, carried_h_j, carried_v_i, carried_v_j
     F_ij = closed_flux(flux_ij, g_ij, pool_i, pool_j, phi_i, phi_j)
     gives = 1.0 if F_ij > 0.0 else 0.0
     # beyond a surface that bends the value of the giver itself
     if tangent_j > 0.0:
         return F_ij * upstream(gives, h_i, h_j), F_ij * upstream(gives, v_i, v_j)
+    low, high = middle_h_i, middle_h_j
+    h = exchanged_enthalpy(gives, h_i, h_j, low, high, grad_h_i, grad_h_j, y_i - y_j)
     # across a plane v of the middle of its profile, which bends there
-    share = 0.5 if mirrored_j > 0.0 else gives
-    h = exchanged_enthalpy(gives, h_i, h_j, grad_h_i, grad_h_j, w_i, w_j, y_i, y_j, half_step)
-    v = exchanged_velocity(gives, share, v_i, v_j, grad_v_i, grad_v_j, x_ij, half_step)
-    return F_ij * h, F_ij * v
+    if mirrored_j > 0.0:
+        return F_ij * h, 0.5 * F_ij * (v_i + v_j)
+    return F_ij * h, F_ij * exchanged_velocity(gives, v_i, v_j, grad_v_i, grad_v_j, x_ij)
 
 
 def after_transport(total_0, total_1, h, v, h_old, h_older, volume, growth, measure, step):
@@ -221,7 +216,8 @@ class Transport:
         self._block: PassingBlock | None = None
         self._passing = self.backend.zeros(self.v.shape)
         self._carried, self._settled = particles["velocity_carried"], particles["settled_jump"]
-        self._middle = self.backend.zeros(volume.shape[0]), self.backend.zeros(self.v.shape)
+        count, vectors = volume.shape[0], self.v.shape
+        self._middle = tuple(self.backend.zeros(shape) for shape in (count, count, vectors))
 
     def carry(
         self, flow: Flow, kinds: ParticleKinds, ride: Ride, step: float, last_step: float
@@ -273,14 +269,13 @@ class Transport:
             self._grad_h, self._grad_v = backend.zeros((d, count)), backend.zeros((d, d, count))
         self.flux = self._kept.of(block.weights.shape[0])
 
-    def _pair_fields(self, block: PassingBlock, v: Array) -> dict[str, Array]:
-        """Values of particles and their images that a flux follows from."""
-        nothing = self.backend.zeros(self.v.shape[1])
-        return {
-            "v": block.ghosts.mirror_velocity(v, nothing),
-            "pool": block.gather(self._equation.components.number),
-            "G_ij": block.gradient,
-        }
+    def _pools(self, block: PassingBlock) -> dict[str, Array]:
+        """Numbers of the pools of particles and their images."""
+        return {"pool": block.gather(self._equation.components.number)}
+
+    def _mirror(self, block: PassingBlock, v: Array) -> Array:
+        """(d, M) a velocity of particles and their images [m/s]."""
+        return block.ghosts.mirror_velocity(v, self.backend.zeros(self.v.shape[1]))
 
     def _beyond_walls(self, block: PassingBlock) -> dict[str, Array]:
         """v and h of particles and their images as their gradients see them."""
@@ -292,9 +287,8 @@ class Transport:
     @graph
     def find_flux(self, block: PassingBlock) -> None:
         """F* of the pairs."""
-        fields = self._pair_fields(block, self._passing) | {"V": block.V, "g_ij": block.weights}
-        fields |= {"measure": block.measure, "tangent": block.tangents}
-        fields |= {"source": block.ghosts.source, "beyond": block.beyond_axis}
+        fields = self._pools(block) | {"v": self._mirror(block, self._passing)}
+        fields |= {"g_ij": block.weights, "tangent": block.tangents, "source": block.ghosts.source}
         tables: Constants = {"u": self._passing, "place": block.ghosts.place}
         tables |= {"distance": block.ghosts.surface.distance}
         self.backend.pair_values(
@@ -305,9 +299,8 @@ class Transport:
     def find_balance(self, block: PassingBlock, kinds: ParticleKinds, growth: Array) -> None:
         """Volume that would gather in each particle, the slopes of h and v there, and the first
         guess of phi."""
-        fields = self._pair_fields(block, self.v)
-        fields |= self._beyond_walls(block)
-        fields |= {"flux_ij": self.flux, "C": block.correction}
+        fields = self._pools(block) | self._beyond_walls(block)
+        fields |= {"flux_ij": self.flux, "G_ij": block.gradient, "C": block.correction}
         fields |= {"growth": growth, "measure": block.measure}
         fields |= {"phi": self._phi, "phi_old": self._phi_old}
         self.backend.pointwise(extrapolated, fields, (self._phi, self._phi_old))
@@ -331,16 +324,21 @@ class Transport:
         share: float,
     ) -> None:
         """h and v after the exchange of the pairs by the fluxes without divergence."""
-        ghosts, rows = block.ghosts, kinds.fluid_rows
+        ghosts, rows, head = block.ghosts, kinds.fluid_rows, self.backend.head
         # the melt in the middle of the step
+        whole = {"h": self.h, "v": self.v, "v_carried": self._carried, "u": self._passing}
         before = dict(zip(("h_old", "h_older"), self._h_before, strict=True))
-        fields = {"h": self.h, "v": self.v, "v_carried": self._carried} | before
-        self.backend.pointwise(middle_values, fields, self._middle, rows=rows, share=share)
+        fields = {name: head(values, block.count) for name, values in (whole | before).items()}
+        fields |= {"grad_h": self._grad_h, "grad_v": self._grad_v}
+        constants = {"share": share, "half_step": half_step}
+        out = tuple(head(values, block.count) for values in self._middle)
+        self.backend.pointwise(middle_values, fields, out, rows=rows, **constants)
         # what pairs exchange of it
-        h, v = self._middle
-        melt = self._pair_fields(block, v)
-        fields |= {"middle_h": block.gather(h), "middle_v": melt["v"], "pool": melt["pool"]}
-        fields |= {"w": block.gather(v), "y": block.unfolded, "grad_h": block.gather(self._grad_h)}
+        middle, h, v = self._middle
+        fields |= before | self._pools(block) | {"h": self.h, "v": self.v}
+        fields |= {"middle_h": block.gather(middle), "carried_h": block.gather(h)}
+        fields |= {"carried_v": self._mirror(block, v)}
+        fields |= {"grad_h": block.gather(self._grad_h), "y": block.unfolded}
         fields |= {"grad_v": ghosts.extend_tensor(self._grad_v)}
         fields |= {"flux_ij": self.flux, "g_ij": block.weights, "phi": block.gather(self._phi)}
         fields |= {"mirrored": block.mirrored, "tangent": block.tangents, "volume": self.volume}
@@ -353,5 +351,4 @@ class Transport:
             finish=after_transport,
             rows=rows,
             step=step,
-            half_step=half_step,
         )

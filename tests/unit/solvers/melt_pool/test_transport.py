@@ -31,25 +31,24 @@ U = np.array([[1.0, 3.0], [0.5, -2.0]]).T
 PLACE, DISTANCE = np.array([[1.0, 0.0], [1.5, 0.0]]), np.array([0.2, 0.3])
 
 
-def flux(pools, beyond=0.0, tangent=0.0, pair=(0, 1)):
-    """Of a pair at r = 1 m: rings of 2 and 4 m, 3 m^2, both moving up with 1 m/s; across a surface
-    that moves those at 1 and 1.5 m, 0.2 and 0.3 m below it, with velocities U, of a weight 2."""
-    rings = (3.0, 2.0, 4.0, G, 2.0, beyond)
-    return pair_flux(UP, UP, *pools, *rings, *pair, tangent, U.T, PLACE, DISTANCE)
+def flux(pools, tangent=0.0, pair=(0, 1)):
+    """Of a pair 2 m apart along z of a weight of 3 m^2/m, i above j, both moving up with 1 m/s;
+    across a surface that moves those at 1 and 1.5 m, 0.2 and 0.3 m below it, with velocities U."""
+    way = 2.0 * UP
+    return pair_flux(UP, UP, *pools, 3.0, way, *pair, tangent, U.T, PLACE, DISTANCE)
 
 
 def test_flux_of_a_pair():
-    """Mean ring of 3 m times 3 m^2 times (v_i + v_j) . G; within a pool, on this side of the
-    axis."""
-    assert flux((1, 1)) == 3.0 * 3.0 * -4.0
-    assert flux((1, 2)) == flux((0, 0)) == flux((1, 0)) == flux((1, 1), 1.0) == 0.0
+    """A weight of 3 times the mean velocity down the 2 m to j; within a pool."""
+    assert flux((1, 1)) == 3.0 * -1.0 * 2.0
+    assert flux((1, 2)) == flux((0, 0)) == flux((1, 0)) == 0.0
 
 
 def test_flux_across_a_surface_that_moves():
     """(u_i + u_j)(r_j - r_i) + (w_i - w_j)(d_i + d_j), the same from both sides but for its sign;
     none toward the image of an image."""
     there = flux((1, 1), tangent=1.0)
-    assert there == pytest.approx(1.5 * 0.5 + 5.0 * 0.5)
+    assert there == pytest.approx(1.5 * (1.5 * 0.5 + 5.0 * 0.5))
     assert flux((1, 1), tangent=1.0, pair=(1, 0)) == pytest.approx(-there)
     assert flux((1, 1), tangent=2.0) == 0.0
 
@@ -80,9 +79,9 @@ WAY = np.array([0.0, -1.0])  # from j down to i, one apart
 
 
 def exchanged(gives, slope=0.0):
-    """h that a pair one apart along z exchanges: 1 and 2, at rest; i below j."""
+    """h that a pair one apart along z exchanges: 1 and 2; i below j."""
     rise = np.array([0.0, slope])
-    return exchanged_enthalpy(gives, 1.0, 2.0, rise, rise, STILL, STILL, WAY, STILL, 0.1)
+    return exchanged_enthalpy(gives, 1.0, 2.0, 1.0, 2.0, rise, rise, WAY)
 
 
 def test_melt_takes_along_what_it_comes_from():
@@ -93,25 +92,32 @@ def test_melt_takes_along_what_it_comes_from():
     assert exchanged(1.0, slope=9.0) == 2.0
 
 
-def test_velocity_is_carried_on_beyond_both():
-    """A slope of 9/s over half of a way of one: 4.5 m/s, between two that rest; the mean of both
-    across a plane."""
+def test_velocity_goes_on_by_the_slope_on_its_far_side():
+    """Where a slope of 9/s lies between one at rest and one of 2 m/s a meter above, the far side
+    rises by 2 * 9 - 2 = 16/s; by half of it along the half of the way, and beyond both."""
     steep = np.array([[0.0, 0.0], [0.0, 9.0]])
-    carried = exchanged_velocity(1.0, 1.0, STILL, STILL, steep, steep, WAY, 0.1)
-    assert carried == pytest.approx([0.0, 4.5])
-    mean = exchanged_velocity(1.0, 0.5, STILL, 2.0 * UP, steep, steep, WAY, 0.1)
-    assert mean == pytest.approx(UP)
+    below = exchanged_velocity(1.0, STILL, 2.0 * UP, steep, steep, WAY)
+    assert below == pytest.approx([0.0, 8.0])
+    above = exchanged_velocity(0.0, STILL, 2.0 * UP, steep, steep, WAY)
+    assert above == pytest.approx([0.0, 2.0 - 8.0])
+
+
+@pytest.mark.parametrize("gives", [0.0, 1.0])
+def test_a_linear_velocity_is_that_of_the_middle(gives):
+    """Of 0 and 2 m/s with their slope in both: 1 m/s."""
+    even = np.array([[0.0, 0.0], [0.0, 2.0]])
+    assert exchanged_velocity(gives, STILL, 2.0 * UP, even, even, WAY) == pytest.approx(UP)
 
 
 def both_sides(mirrored=0.0, tangent=0.0):
     """h and v times flux of a pair, seen from i and from j."""
-    T, half_step = np.array([[0.5, 0.1], [0.2, -0.5]]), 0.1
+    T = np.array([[0.5, 0.1], [0.2, -0.5]])
     one, other = (1.0, np.array([1.0, 0.5]), np.array([0.3, 0.7])), (2.0, UP, np.array([0.1, 0.9]))
-    way, marks = np.array([0.4, -1.0]), (mirrored, tangent, half_step)
+    way, marks = np.array([0.4, -1.0]), (mirrored, tangent)
     (h_i, v_i, g_i), (h_j, v_j, g_j) = one, other
     closed, back = (2.0, 3.0, 1, 1, 1.0, 1.5), (-2.0, 3.0, 1, 1, 1.5, 1.0)
-    there = (h_i, h_j, v_i, v_j, v_i, v_j, g_i, g_j, T, 2 * T, way, way, STILL)
-    here = (h_j, h_i, v_j, v_i, v_j, v_i, g_j, g_i, 2 * T, T, -way, STILL, way)
+    there = (h_i, h_j, h_i, h_j, v_i, v_j, g_i, g_j, T, 2 * T, way, way, STILL)
+    here = (h_j, h_i, h_j, h_i, v_j, v_i, g_j, g_i, 2 * T, T, -way, STILL, way)
     return exchange_terms(*closed, *there, *marks), exchange_terms(*back, *here, *marks)
 
 
@@ -137,12 +143,32 @@ def test_enthalpy_beyond_a_wall_of_given_temperature():
     assert value_beyond(1.0, 0.0, 3.0) == 1.0
 
 
+def middle(share, slope=0.0):
+    """h of the middle of a step, that and v with what the flow carries: 10 after 8, 1 after 3 m/s
+    upward, in a flow of 2 m/s upward for half a step of 0.5 s; slopes upward."""
+    grad_h, grad_v = slope * UP, slope * np.diag([0.0, 1.0])
+    return middle_values(10.0, 8.0, UP, 3.0 * UP, 2.0 * UP, grad_h, grad_v, share, 0.25)
+
+
 def test_melt_of_the_middle_of_the_step():
     """Half of the change of the step before where both are as long: 10 after 8 goes on to 11."""
-    h, v = middle_values(10.0, 8.0, UP, 3.0 * UP, 0.5)
-    assert h == 11.0
+    h, carried, v = middle(0.5)
+    assert h == carried == 11.0
     assert v == pytest.approx([0.0, 0.0])
-    assert middle_values(10.0, 8.0, UP, 3.0 * UP, 0.0)[0] == 10.0
+    assert middle(0.0)[0] == 10.0
+
+
+def test_what_the_flow_carries_in_half_a_step():
+    """From half a meter below, where h is lower by 2 and v by 2 m/s."""
+    h, carried, v = middle(0.0, slope=4.0)
+    assert (h, carried) == (10.0, 8.0)
+    assert v == pytest.approx([0.0, -1.0])
+
+
+def test_pairs_across_planes_exchange_the_mean_velocity():
+    """The middle of a profile that bends at a wall."""
+    there, _ = both_sides(mirrored=1.0)
+    assert there[1] == pytest.approx(0.5 * np.array([0.5, 0.75]))
 
 
 def test_step_of_a_ring():
