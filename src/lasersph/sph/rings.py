@@ -108,8 +108,7 @@ def ring_divergence_term(v_i, v_j, C_i, G_ij, r_i, r_j, c_i, beyond_j):
     Its part v_i . C G_ij counts along r alone: across it sums up to nothing where particles are
     even, and to an error where they are not.
     """
-    if beyond_j > 0.0:
-        return 0.0 * r_i
     gradient = matvec(C_i, G_ij)
     change = dot(v_j - v_i, gradient) + 2.0 * v_i[0] * gradient[0]
-    return 0.5 * (r_i + r_j) * c_i * change
+    share = 0.5 if beyond_j == 0.0 else 0.0
+    return share * (r_i + r_j) * c_i * change

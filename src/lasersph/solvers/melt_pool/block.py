@@ -61,11 +61,13 @@ class Block:
         correction: (d, d, count) matrices C of corrected gradients, see `correct_kernel`.
         rows: numbers of the particles whose pairs were found, None for
             all of the block; has_row: (count,) 1 for them, or None. rows_near_faces: those, of
-            complete rows, that may have ghosts as neighbors.
+            complete rows, that may have ghosts as neighbors. rows_across: those with pairs across
+            the tangents of a surface that moves; None where none does.
     """
 
     reach = 1.0
     """Search radii beyond a face at most in which ghosts lie."""
+    rows_across: Rows | None = None
 
     def __init__(
         self,

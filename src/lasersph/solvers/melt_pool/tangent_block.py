@@ -63,6 +63,7 @@ class TangentBlock(Block):
         fields["has_row"] = self.has_row if self.has_row is not None else ghosts.particles.all_rows
         backend.pointwise(place_below, fields, mark, plane=reach.plane)
         rows, beyond = (backend.rows_where(mark, place) for place in (NEAR, BEYOND))
+        self.rows_across = rows
 
         # weights of the way back, with the ghosts in the place of their sources; mean of both ways
         swapped = self._geometry.per_pair("swapped")

@@ -58,25 +58,33 @@ def passing_velocity(v, w):
     return v - w
 
 
-def pair_flux(
-    v_i, v_j, pool_i, pool_j, g_ij, x_ij, source_i, source_j, tangent_j, u, place, distance
-):
+def pair_flux(v_i, v_j, pool_i, pool_j, g_ij, x_ij):
     """Volume that flows from i to j [m^3/s] within a pool.
 
     Args:
-        v: of the melt over the particles, as ghosts mirror it [m/s]. tangent: see `PassingBlock`.
-            u, place, distance: tables of that velocity, of places and of distances from the
-            surface.
+        v: of the melt over the particles, as ghosts mirror it [m/s].
     """
+    same = 0.5 if pool_i == pool_j else 0.0
+    return -(same if pool_i > 0 else 0.0) * g_ij * dot(v_i + v_j, x_ij)
+
+
+def flux_across(flux_ij, pool_i, pool_j, g_ij, source_i, source_j, tangent_j, u, place, distance):
+    """Flux of a pair across a surface that moves [m^3/s], the same from both sides; of all others
+    as it is.
+
+    Args:
+        tangent: see `PassingBlock`. u, place, distance: tables of the velocity of the melt over the
+            particles, of places and of distances from the surface.
+    """
+    if tangent_j == 0.0:
+        return 1.0 * flux_ij
     if pool_i == 0 or pool_i != pool_j or tangent_j > 1.0:
         return 0.0 * g_ij
-    if tangent_j > 0.0:
-        # what the tangent at one of both turns, mirrored
-        u_i, u_j = u[source_i], u[source_j]
-        along = (u_i[0] + u_j[0]) * (place[source_j][0] - place[source_i][0])
-        across = (u_i[1] - u_j[1]) * (distance[source_i] + distance[source_j])
-        return 0.5 * g_ij * (along + across)
-    return -0.5 * g_ij * dot(v_i + v_j, x_ij)
+    # what the tangent at one of both turns, mirrored
+    u_i, u_j = u[source_i], u[source_j]
+    along = (u_i[0] + u_j[0]) * (place[source_j][0] - place[source_i][0])
+    across = (u_i[1] - u_j[1]) * (distance[source_i] + distance[source_j])
+    return 0.5 * g_ij * (along + across)
 
 
 def flux_and_slope_terms(flux_ij, h_i, h_j, v_i, v_j, pool_i, pool_j, G_ij):
@@ -97,10 +105,8 @@ def extrapolated(phi, phi_old):
 
 
 def closed_flux(flux_ij, g_ij, pool_i, pool_j, phi_i, phi_j):
-    """The flux without what would gather in a particle [m^3/s]."""
-    if pool_i == 0 or pool_i != pool_j:
-        return 1.0 * flux_ij
-    return flux_ij - g_ij * (phi_j - phi_i)
+    """The flux without what would gather in a particle [m^3/s]; phi is 0 where nothing flows."""
+    return flux_ij - (g_ij if pool_i == pool_j else 0.0) * (phi_j - phi_i)
 
 
 def middle_values(h, h_old, v, v_carried, u, grad_h, grad_v, share, half_step):
@@ -127,23 +133,23 @@ def value_beyond(h, dirichlet, wall_enthalpy):
     return h + 2.0 * dirichlet * (wall_enthalpy - h)
 
 
-def exchanged_enthalpy(gives, h_i, h_j, low, high, grad_h_i, grad_h_j, y_ij):
-    """h that a pair exchanges [J/kg]: that of the giver, carried on to the middle of the pair,
-    within a range.
+def exchanged_enthalpy(gives, goes_on, h_i, h_j, low, high, grad_h_i, grad_h_j, y_ij):
+    """h that a pair exchanges [J/kg]: that of the giver, carried on to the middle of the pair where
+    `goes_on` is 1, within a range.
 
     Args:
         y_ij: place of i less that of j [m], of images those of the sources, since melt that crosses
             a plane comes back.
     """
     rise = dot(upstream(gives, grad_h_i, grad_h_j), (0.5 - gives) * y_ij)
-    return clip_to_range(upstream(gives, h_i, h_j) + rise, low, high, high)
+    return clip_to_range(upstream(gives, h_i, h_j) + goes_on * rise, low, high, high)
 
 
-def exchanged_velocity(gives, v_i, v_j, grad_v_i, grad_v_j, x_ij):
+def exchanged_velocity(gives, goes_on, v_i, v_j, grad_v_i, grad_v_j, x_ij):
     """v that a pair exchanges [m/s]: that of the giver, carried on to the middle of the pair by the
-    slope on its far side."""
+    slope on its far side where `goes_on` is 1; the mean of both where half of each gives."""
     far = 2.0 * matvec(upstream(gives, grad_v_i, grad_v_j), x_ij) - (v_i - v_j)
-    return upstream(gives, v_i, v_j) + (0.5 - gives) * far
+    return upstream(gives, v_i, v_j) + (0.5 - gives) * goes_on * far
 
 
 def exchange_terms(
@@ -174,14 +180,13 @@ def exchange_terms(
     F_ij = closed_flux(flux_ij, g_ij, pool_i, pool_j, phi_i, phi_j)
     gives = 1.0 if F_ij > 0.0 else 0.0
     # beyond a surface that bends the value of the giver itself
-    if tangent_j > 0.0:
-        return F_ij * upstream(gives, h_i, h_j), F_ij * upstream(gives, v_i, v_j)
-    low, high = middle_h_i, middle_h_j
-    h = exchanged_enthalpy(gives, h_i, h_j, low, high, grad_h_i, grad_h_j, y_i - y_j)
+    goes_on = 0.0 if tangent_j > 0.0 else 1.0
+    low, high, y_ij = middle_h_i, middle_h_j, y_i - y_j
+    h = exchanged_enthalpy(gives, goes_on, h_i, h_j, low, high, grad_h_i, grad_h_j, y_ij)
     # across a plane v of the middle of its profile, which bends there
-    if mirrored_j > 0.0:
-        return F_ij * h, 0.5 * F_ij * (v_i + v_j)
-    return F_ij * h, F_ij * exchanged_velocity(gives, v_i, v_j, grad_v_i, grad_v_j, x_ij)
+    share = 0.5 if mirrored_j > 0.0 else gives
+    v = exchanged_velocity(share, goes_on, v_i, v_j, grad_v_i, grad_v_j, x_ij)
+    return F_ij * h, F_ij * v
 
 
 def after_transport(total_0, total_1, h, v, h_old, h_older, volume, growth, measure, step):
@@ -287,13 +292,17 @@ class Transport:
     @graph
     def find_flux(self, block: PassingBlock) -> None:
         """F* of the pairs."""
-        fields = self._pools(block) | {"v": self._mirror(block, self._passing)}
-        fields |= {"g_ij": block.weights, "tangent": block.tangents, "source": block.ghosts.source}
+        pools, flux = self._pools(block), self.flux
+        fields = pools | {"v": self._mirror(block, self._passing), "g_ij": block.weights}
+        self.backend.pair_values(pair_flux, block.pairs, fields, flux, rows=block.rows)
+        if block.rows_across is None:
+            return
+        fields = pools | {"g_ij": block.weights, "flux_ij": flux, "source": block.ghosts.source}
+        fields |= {"tangent": block.tangents}
         tables: Constants = {"u": self._passing, "place": block.ghosts.place}
         tables |= {"distance": block.ghosts.surface.distance}
-        self.backend.pair_values(
-            pair_flux, block.pairs, fields, self.flux, rows=block.rows, **tables
-        )
+        rows = block.rows_across
+        self.backend.pair_values(flux_across, block.pairs, fields, flux, rows=rows, **tables)
 
     @graph
     def find_balance(self, block: PassingBlock, kinds: ParticleKinds, growth: Array) -> None:

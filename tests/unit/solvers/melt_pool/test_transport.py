@@ -15,6 +15,7 @@ from lasersph.solvers.melt_pool.transport import (
     exchanged_enthalpy,
     exchanged_velocity,
     extrapolated,
+    flux_across,
     flux_and_slope_terms,
     gathering_and_slopes,
     middle_values,
@@ -31,11 +32,9 @@ U = np.array([[1.0, 3.0], [0.5, -2.0]]).T
 PLACE, DISTANCE = np.array([[1.0, 0.0], [1.5, 0.0]]), np.array([0.2, 0.3])
 
 
-def flux(pools, tangent=0.0, pair=(0, 1)):
-    """Of a pair 2 m apart along z of a weight of 3 m^2/m, i above j, both moving up with 1 m/s;
-    across a surface that moves those at 1 and 1.5 m, 0.2 and 0.3 m below it, with velocities U."""
-    way = 2.0 * UP
-    return pair_flux(UP, UP, *pools, 3.0, way, *pair, tangent, U.T, PLACE, DISTANCE)
+def flux(pools):
+    """Of a pair 2 m apart along z of a weight of 3 m^2/m, i above j, both moving up with 1 m/s."""
+    return pair_flux(UP, UP, *pools, 3.0, 2.0 * UP)
 
 
 def test_flux_of_a_pair():
@@ -44,13 +43,20 @@ def test_flux_of_a_pair():
     assert flux((1, 2)) == flux((0, 0)) == flux((1, 0)) == 0.0
 
 
+def across(tangent, pools=(1, 1), pair=(0, 1)):
+    """Flux of 7 m^3/s of a weight of 3 across a surface that moves, of those at 1 and 1.5 m, 0.2
+    and 0.3 m below it, with velocities U."""
+    return flux_across(7.0, *pools, 3.0, *pair, tangent, U.T, PLACE, DISTANCE)
+
+
 def test_flux_across_a_surface_that_moves():
     """(u_i + u_j)(r_j - r_i) + (w_i - w_j)(d_i + d_j), the same from both sides but for its sign;
-    none toward the image of an image."""
-    there = flux((1, 1), tangent=1.0)
+    none toward the image of an image, nor to another pool; others stay as they are."""
+    there = across(1.0)
     assert there == pytest.approx(1.5 * (1.5 * 0.5 + 5.0 * 0.5))
-    assert flux((1, 1), tangent=1.0, pair=(1, 0)) == pytest.approx(-there)
-    assert flux((1, 1), tangent=2.0) == 0.0
+    assert across(1.0, pair=(1, 0)) == pytest.approx(-there)
+    assert across(2.0) == across(1.0, (1, 2)) == across(1.0, (0, 0)) == 0.0
+    assert across(0.0) == 7.0
 
 
 def test_what_gathers_in_a_ring():
@@ -81,7 +87,7 @@ WAY = np.array([0.0, -1.0])  # from j down to i, one apart
 def exchanged(gives, slope=0.0):
     """h that a pair one apart along z exchanges: 1 and 2; i below j."""
     rise = np.array([0.0, slope])
-    return exchanged_enthalpy(gives, 1.0, 2.0, 1.0, 2.0, rise, rise, WAY)
+    return exchanged_enthalpy(gives, 1.0, 1.0, 2.0, 1.0, 2.0, rise, rise, WAY)
 
 
 def test_melt_takes_along_what_it_comes_from():
@@ -96,9 +102,9 @@ def test_velocity_goes_on_by_the_slope_on_its_far_side():
     """Where a slope of 9/s lies between one at rest and one of 2 m/s a meter above, the far side
     rises by 2 * 9 - 2 = 16/s; by half of it along the half of the way, and beyond both."""
     steep = np.array([[0.0, 0.0], [0.0, 9.0]])
-    below = exchanged_velocity(1.0, STILL, 2.0 * UP, steep, steep, WAY)
+    below = exchanged_velocity(1.0, 1.0, STILL, 2.0 * UP, steep, steep, WAY)
     assert below == pytest.approx([0.0, 8.0])
-    above = exchanged_velocity(0.0, STILL, 2.0 * UP, steep, steep, WAY)
+    above = exchanged_velocity(0.0, 1.0, STILL, 2.0 * UP, steep, steep, WAY)
     assert above == pytest.approx([0.0, 2.0 - 8.0])
 
 
@@ -106,7 +112,7 @@ def test_velocity_goes_on_by_the_slope_on_its_far_side():
 def test_a_linear_velocity_is_that_of_the_middle(gives):
     """Of 0 and 2 m/s with their slope in both: 1 m/s."""
     even = np.array([[0.0, 0.0], [0.0, 2.0]])
-    assert exchanged_velocity(gives, STILL, 2.0 * UP, even, even, WAY) == pytest.approx(UP)
+    assert exchanged_velocity(gives, 1.0, STILL, 2.0 * UP, even, even, WAY) == pytest.approx(UP)
 
 
 def both_sides(mirrored=0.0, tangent=0.0):
