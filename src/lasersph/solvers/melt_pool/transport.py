@@ -117,9 +117,10 @@ def middle_values(h, h_old, v, v_carried, u, grad_h, grad_v, share, half_step):
         h_old, v_carried: after the transport of that step. u: of the melt over the particle [m/s].
             share: half this step over that one.
     """
-    h_middle, way = h + share * (h - h_old), -half_step * u
+    h_middle, displacement = h + share * (h - h_old), -half_step * u
     v_middle = v + share * (v - v_carried)
-    return h_middle, h_middle + dot(grad_h, way), v_middle + matvec(grad_v, way)
+    h_carried = h_middle + dot(grad_h, displacement)
+    return h_middle, h_carried, v_middle + matvec(grad_v, displacement)
 
 
 def upstream(share, a_i, a_j):
