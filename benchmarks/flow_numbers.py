@@ -1,10 +1,11 @@
 """Numbers of the flow that no paper gives, by what they do to a cavity and a dam break.
 
     python benchmarks/flow_numbers.py            the tables of docs/notes/2026-11-flow-numbers.md
-    python benchmarks/flow_numbers.py --only cavity, vortices, cubes, dam-break, speeds or spots
+    python benchmarks/flow_numbers.py --only cavity
 
-The cavity under a moving lid at Re 400 with 20 particles a side, its center lines beside finite
-differences, for support ratios, factors of the shifting and shares of the advection limit; the
+Studies: the cavity under a moving lid at Re 400 with 20 particles a side, its center lines beside
+finite differences, for support ratios, factors of the shifting and shares of the advection limit;
+a cavity and a cube at Re 400 whose particles rest, for support ratios, with the processor time; the
 energy of vortices in a cube at Re 50 for factors of the shifting, and for both gradients of the
 pressure; the front of a dam break with 10 and 20 particles in the width of the column; how much
 single particles move the speeds that are reported of a steady cavity under a surface that is warm
@@ -17,10 +18,12 @@ from __future__ import annotations
 import argparse
 import tempfile
 from pathlib import Path
+from time import process_time
 
 import numpy as np
 
 from lasersph import compute, load_case, open_run, run
+from lasersph.output import Run
 from lasersph.physics import flow_limits
 from lasersph.simulation.recipes import recipe_of
 from lasersph.simulation.recipes.melt_pool import surfaces
@@ -29,6 +32,9 @@ from lasersph.surface.pressure_gradient import DifferenceGradient, SymmetricGrad
 from lasersph.validation.dam_break.rows import front_of
 from lasersph.validation.lid_driven_cavity.center_lines import center_line
 from lasersph.validation.lid_driven_cavity.rows import deviation, lines_of
+from lasersph.validation.lid_driven_cube.rows import EXTREMA
+from lasersph.validation.study import Study
+from lasersph.validation.tables import quantities_at
 from lasersph.validation.taylor_green.rows import energy_rate, velocity_error, vortices_of
 from lasersph.validation.vortices_in_space.rows import energy_share
 from lasersph.validation.vortices_in_space.rows import vortices_of as cube_of
@@ -40,6 +46,10 @@ CAVITIES = (
     SHIPPED, (3.75, 0.01, 0.06), (3.1, 0.04, 0.06), (3.75, 0.04, 0.06), (3.1, 0.01, 0.25),
     (3.1, 0.0, 0.06), (3.1, 0.01, 0.12), (2.6, 0.01, 0.06),
 )  # fmt: skip
+RESTING = (2.1, 2.35, 2.6, 3.1, 3.75)
+"""Support ratios of particles that rest, 25 a side of a cavity and 24 of half a cube."""
+CUBE_END = 30.0
+"""Time when the flow in the cube is steady [s]."""
 COLUMNS = (10, 20)
 VORTICES = ((0.01, 0.03), (0.01, 0.06), (0.01, 0.12), (0.01, 0.25), (0.002, 0.06), (0.002, 0.25))
 """Kinematic viscosity [m^2/s], for Re 100 and 500, and share of the advection limit."""
@@ -51,7 +61,7 @@ CUBES = (
 GRADIENTS = {"symmetric": SymmetricGradient, "differences": DifferenceGradient}
 EXACT = ((1.0, 0.8835378), (2.0, 0.7645278))
 """Time [s], and energy over that of the start: `validation/vortices_in_space/reference.csv`."""
-STUDIES = ("cavity", "vortices", "cubes", "dam-break", "speeds", "spots")
+STUDIES = ("cavity", "resting", "vortices", "cubes", "dam-break", "speeds", "spots")
 SHARES = (0.03, 0.06, 0.12, 0.24)
 """Shares of the advection limit where melt passes between particles."""
 SECTION = (
@@ -92,6 +102,34 @@ def cavity(folder: Path, ratio: float, shifting: float, advection: float) -> str
     u, w = (100.0 * deviation(lines[c], v) for c, v in lines_of(found, lines, END).items())
     closest = found.summary["flow"]["spacing_min_m"] / found.summary["spacing_m"]
     return f"u {u:.2f}  w {w:.2f} % of lid, closest {closest:.2f}, {found.summary['steps']} steps"
+
+
+def resting(folder: Path, ratio: float) -> str:
+    """Deviations of a cavity in % of the lid's speed, of extrema in half a cube in % of theirs, and
+    processor times."""
+    study = Study("lid-driven-cube", folder)
+    settings = [
+        f"particles.support_ratio={ratio}",
+        f"material.kinematic_viscosity={1.0 / REYNOLDS!r} m^2/s",
+    ]
+    square = ["particles.spacing=40 mm", f"time.end={END} s"]
+    half = [*study.plan.settings, f"particles.spacing={1.0 / 24!r} m", f"time.end={CUBE_END} s"]
+    cavity, seconds = timed_run("lid-driven-cavity", [*settings, *square], folder)
+    cube, seconds_of_cube = timed_run("lid-driven-cube", [*settings, *half], folder)
+
+    lines = {c: center_line(c, REYNOLDS) for c in "uv"}
+    u, w = (100.0 * deviation(lines[c], v) for c, v in lines_of(cavity, lines, END).items())
+    center, expected = cube.summary["box"]["center"], quantities_at(study.table(), "Re", REYNOLDS)
+    errors = (100.0 * (center[f"{name}_m_s"] / expected[name] - 1.0) for name in EXTREMA)
+    extrema = "  ".join(f"{name} {e:+.1f} %" for name, e in zip(EXTREMA, errors, strict=True))
+    return f"u {u:.2f}  w {w:.2f} % of lid, {seconds:.0f} s; {extrema}, {seconds_of_cube:.0f} s"
+
+
+def timed_run(name: str, settings: list[str], folder: Path) -> tuple[Run, float]:
+    """Run of a shipped case in a folder of its name, and its processor time [s]."""
+    begin = process_time()
+    run(load_case(name, settings), folder / name, threads=1)
+    return open_run(folder / name), process_time() - begin
 
 
 def vortices(folder: Path, viscosity: float, advection: float) -> str:
@@ -180,6 +218,9 @@ def main() -> None:
         if only in (None, "cavity"):
             for number, numbers in enumerate(CAVITIES):
                 print(*numbers, cavity(Path(place) / f"cavity-{number}", *numbers), flush=True)
+        if only in (None, "resting"):
+            for ratio in RESTING:
+                print(ratio, resting(Path(place) / f"resting-{ratio}", ratio), flush=True)
         if only in (None, "vortices"):
             for number, numbers in enumerate(VORTICES):
                 print(*numbers, vortices(Path(place) / f"vortices-{number}", *numbers), flush=True)

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from flow_boxes import LID, box, box_case, place_of, pool
+from flow_boxes import LID, PERIODIC, PERIODIC_HEAT, box, box_case, place_of, pool
 from law_runs import go, host, start_from
 from spot_pools import run_in_two_parts
 
@@ -78,3 +78,22 @@ def test_narrow_supports_leave_one_fluid():
     solver = box(support=2.0)
     solver.step(0.01)
     assert solver.flow.projection.equation.components.count == 1
+
+
+@pytest.mark.parametrize("support", [2.1, 2.6, 3.75])
+def test_waves_go_along_with_the_flow(support):
+    """Of temperature and of velocity across a uniform flow of 1 m/s, 0.25 m in 0.25 s, however far
+    particles see: 0.2 % of enthalpy, 2 % of velocity, whose slopes lead."""
+    still = {"conductivity": "1e-9 W/(m K)", "kinematic_viscosity": "1e-9 m^2/s"}
+    solver = box(flow=PERIODIC, heat=PERIODIC_HEAT, cells=40, depth=0.5, material=still,
+                 support=support, frame="eulerian")  # fmt: skip
+    x = place_of(solver)[0]
+    wave = np.exp(2j * np.pi * x)
+    solver.flow.set_initial_velocity(np.array([np.ones_like(x), 0.01 * wave.imag]))
+    start_from(solver, 300.0 + wave.imag)
+    go(solver, 0.25)
+    h, w = host(solver, "enthalpy"), host(solver, "velocity")[1]
+    # sin(2 pi (x - s)) has the phase -2 pi s
+    h_carried, w_carried = (-np.angle(1j * np.mean(a / wave)) / (2.0 * np.pi) for a in (h, w))
+    assert h_carried == pytest.approx(0.25, rel=0.002)
+    assert w_carried == pytest.approx(0.25, rel=0.02)
