@@ -85,7 +85,8 @@ def iterations_of(backend: Backend, most: float) -> Iterator[Timed]:
 def steps_of(backend: Backend, most: float) -> Iterator[Timed]:
     """Steps of a lid-driven cube."""
     for side in SIDES:
-        settings = ["solver.frame=lagrangian", f"particles.spacing={1.0 / side} m"]
+        frame = ["solver.frame=lagrangian", "particles.support_ratio=3.1"]
+        settings = [*frame, f"particles.spacing={1.0 / side} m"]
         case = load_case("lid-driven-cube", settings)
         solver: Any = recipe_of(case).build(backend)
         times = []

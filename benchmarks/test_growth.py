@@ -96,7 +96,8 @@ def test_step_of_heat(scheme):
 def cost_of_flow(side):
     """Processor time per particle and step [s] of a cube below a lid, with all of its pressure and
     viscosity."""
-    settings = ["solver.frame=lagrangian", f"particles.spacing={1.0 / side!r} m"]
+    frame = ["solver.frame=lagrangian", "particles.support_ratio=3.1"]
+    settings = [*frame, f"particles.spacing={1.0 / side!r} m"]
     case = load_case("lid-driven-cube", settings)
     solver = recipe_of(case).build(compute.cpu(threads=THREADS))
     count, begin, wall = solver.body.count, 0.0, 0.0

@@ -98,7 +98,7 @@ def add_rows(study: Study, reynolds: int, line: CenterLine, found: dict[int, np.
 def add_moving(study: Study, reynolds: int, reference: dict[str, CenterLine], first: float) -> None:
     """The same of particles that move with the liquid, as those of a pool do."""
     for n in study.plan.moving:
-        moving = ("solver.frame=lagrangian", "solver.shifting=0.01")
+        moving = ("solver.frame=lagrangian", "solver.shifting=0.01", "particles.support_ratio=3.1")
         one = study.run(f"re{reynolds}-{n}-moving", *settings(study, reynolds, n), *moving)
         for component, values in lines_of(one, reference, first).items():
             error = 100.0 * deviation(reference[component], values)

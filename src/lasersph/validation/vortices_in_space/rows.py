@@ -44,6 +44,7 @@ def vortices_of(reynolds: int, count: int, shifting: float, end: float) -> tuple
         *(f"solver.flow.initial.period={side!r} m", "solver.steady="),
         f"material.kinematic_viscosity={1.0 / reynolds!r} m^2/s",
         *("solver.frame=lagrangian", f"solver.shifting={shifting}", f"time.end={end!r} s"),
+        "particles.support_ratio=3.1",
         f"output.snapshots.interval={end!r} s",
     )
 
