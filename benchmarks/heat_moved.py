@@ -35,7 +35,6 @@ def box_of(rayleigh: float, cells: int, end: float) -> MeltPool:
     """A box with so many particles a side until an end [s]; g beta dT width^3 is 1 in SI units."""
     settings = (
         "solver.frame=lagrangian",
-        "particles.support_ratio=3.75",
         f"particles.spacing={1.0 / cells!r} m",
         f"material.kinematic_viscosity={np.sqrt(PRANDTL / rayleigh):.8g} m^2/s",
         f"material.conductivity={diffusivity(rayleigh, PRANDTL):.8g} W/(m K)",

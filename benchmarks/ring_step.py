@@ -26,9 +26,9 @@ ASKED = 1.15
 
 def solver_of(geometry: str, surface: str, rows: int):
     """A box with so many rows of particles."""
-    flow = {"surface": surface, "right": "symmetry"}
+    flow, frame = {"surface": surface, "right": "symmetry"}, {}
     if geometry == "planar":
-        flow["left"] = "symmetry"
+        flow["left"], frame = "symmetry", {"frame": "lagrangian"}
     heat = {"amplitude": 100.0, "radius": DEPTH}
     data = {
         "material": {
@@ -48,7 +48,7 @@ def solver_of(geometry: str, surface: str, rows: int):
             "surface_temperature_bump": heat,
         },
         "particles": {"spacing": DEPTH / rows, "arrangement": "uniform"},
-        "solver": {"kind": "melt-pool", "geometry": geometry, "flow": flow},
+        "solver": {"kind": "melt-pool", "geometry": geometry, "flow": flow, **frame},
         "time": {"end": 1e-6},
     }
     return recipe_of(Case.model_validate(data)).build(compute.cpu(threads=1))

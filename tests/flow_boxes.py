@@ -18,7 +18,7 @@ PERIODIC_HEAT = {"sides": "periodic", "bottom": "periodic", "surface": "periodic
 
 def box_case(
     *, flow=None, heat=None, cells=10, width=1.0, depth=1.0, end=1.0, step=0.01, material=None,
-    steady=None, domain=None, support=None, **settings,
+    steady=None, domain=None, support=None, frame="lagrangian", **settings,
 ):  # fmt: skip
     """Case of a box of unit liquid: nu = a = 0.01 m^2/s, `cells` particles a meter."""
     return Case.model_validate(
@@ -31,6 +31,7 @@ def box_case(
             "boundaries": heat or {},
             "solver": {
                 "kind": "melt-pool", "flow": LID if flow is None else flow, "steady": steady,
+                "frame": frame,
                 **settings,
             },
             "time": {"end": end, "step": step},

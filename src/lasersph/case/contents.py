@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, Literal, Self
 
-from pydantic import Field, ValidationInfo, field_validator
+from pydantic import Field, ValidationInfo, field_validator, model_validator
 
 from lasersph.boundaries import Boundaries, FlowConditions, InitialMotion, Vessel
 from lasersph.boundaries.initial_surface import InitialSurface
@@ -13,6 +13,7 @@ from lasersph.case.solver_choice import (
     SolverChoice,
     has_pool,
     surface_moves,
+    with_frame,
     with_vaporization,
 )
 from lasersph.input import Model, Temperature
@@ -65,10 +66,19 @@ class CaseContents(Model):
 
     @field_validator("solver")
     @classmethod
-    def _say_vaporization(cls, solver: SolverSettings, info: ValidationInfo) -> SolverSettings:
-        """Fill the default in that depends on the metal, where that could be read."""
+    def _say_defaults(cls, solver: SolverSettings, info: ValidationInfo) -> SolverSettings:
+        """Fill the defaults in that depend on the metal, where that could be read."""
         material = info.data.get("material")
-        return solver if material is None else with_vaporization(solver, material)
+        if material is None:
+            return solver
+        return with_frame(with_vaporization(solver, material), material)
+
+    @model_validator(mode="after")
+    def _say_support(self) -> Self:
+        """Fill in how far particles of a box see that rest, where the case does not say."""
+        if self.flow is None or getattr(self.solver, "frame", None) != "eulerian":
+            return self
+        return self.model_copy(update={"particles": self.particles.at_rest()})
 
     @property
     def geometry(self) -> Geometry:

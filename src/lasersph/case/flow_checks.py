@@ -89,7 +89,7 @@ def _frame(case: CaseContents, solver: MeltPoolSettings) -> Iterator[tuple[str, 
             "solver.pressure",
             '"published" is the matrix of particles that move; leave it out',
         )
-    if solver.shifting != type(solver).model_fields["shifting"].default:
+    if solver.is_shifted:
         yield "solver.shifting", "particles that rest are not shifted; leave it out"
 
 

@@ -86,6 +86,20 @@ def with_vaporization(solver: SolverSettings, material: Material) -> SolverSetti
     return solver.model_copy(update={"vaporization": chosen})
 
 
+def with_frame(solver: SolverSettings, material: Material) -> SolverSettings:
+    """The settings with `frame` said for a box of liquid, where the case does not.
+
+    Particles that rest err less in less time. They move where a surface moves, where the case says
+    how they are shifted, and with the schemes of [Demuth2020].
+    """
+    if not computes_flow(solver) or solver.flow is None or solver.frame is not None:
+        return solver
+    moves = surface_moves(solver) or solver.is_shifted or solver.is_published
+    if moves or solver.geometry == "axisymmetric" or has_pool(solver, material):
+        return solver
+    return solver.model_copy(update={"frame": "eulerian"})
+
+
 def wants_vapor_flux(solver: SolverSettings, material: Material) -> bool:
     """Whether the surface of a pool moves, in a metal that boils."""
     boils = material.vaporization is not None

@@ -19,6 +19,9 @@ KernelName = Literal["cubic-spline", "quintic-spline", "wendland-c2"]
 Size = Annotated[Length, Field(gt=0)]
 USUAL_SUPPORT_RATIO = {"quintic-spline": 3.75, "cubic-spline": 3.0, "wendland-c2": 3.0}
 """Support radius over spacing by kernel: 3 h with h = 1.25 spacings, 2 h with h = 1.5 spacings."""
+RESTING_SUPPORT_RATIO = {**USUAL_SUPPORT_RATIO, "quintic-spline": 2.6}
+"""The same of particles of a box of liquid that rest. Study: error and time of a cavity and of a
+cube, `benchmarks/flow_numbers.py --only resting`."""
 
 
 class Lattice(Model):
@@ -55,13 +58,20 @@ class Lattice(Model):
         default="quintic-spline", description="by which neighbors are weighted"
     )
     support_ratio: Annotated[float, Field(ge=1.5, le=6.0)] | None = Field(
-        default=None, description="support radius over spacing; default 3.75 (quintic), 3 (others)"
+        default=None,
+        description="support radius over spacing; default 3.75 (quintic; 2.6 in boxes whose "
+        "particles rest), 3 (others)",
     )
 
     @property
     def support_over_spacing(self) -> float:
         """Support radius over spacing, as given or as is usual for the kernel."""
         return self.support_ratio or USUAL_SUPPORT_RATIO[self.kernel]
+
+    def at_rest(self) -> Lattice:
+        """The lattice of particles of a box that rest: how far they see is said."""
+        ratio = self.support_ratio or RESTING_SUPPORT_RATIO[self.kernel]
+        return self.model_copy(update={"support_ratio": ratio})
 
     @model_validator(mode="after")
     def _check_sizes(self) -> Lattice:

@@ -61,7 +61,8 @@ class MeltPoolSettings(HeatSettings):
         default=None,
         exclude_if=lambda given: given is None,
         description="particles move with the melt, or rest while it passes between them; default: "
-        "lagrangian, in sections (r, z) eulerian",
+        "eulerian in sections (r, z), and in boxes whose surface does not move, shifting is not "
+        "given and no scheme is published or explicit; else lagrangian",
     )
     shifting: Annotated[float, Field(ge=0, le=0.5)] = Field(
         default=0.04,
@@ -81,6 +82,17 @@ class MeltPoolSettings(HeatSettings):
         default=None,
         description="only for a closed box that is all fluid; without it what is molten flows",
     )
+
+    @property
+    def is_shifted(self) -> bool:
+        """Whether the case says how particles that move are shifted."""
+        return self.shifting != type(self).model_fields["shifting"].default
+
+    @property
+    def is_published(self) -> bool:
+        """Whether a scheme of the flow is that of [Demuth2020]."""
+        is_explicit = self.viscosity == "explicit"
+        return is_explicit or "published" in (self.pressure, self.step_limits)
 
     @property
     def rests(self) -> bool:
