@@ -46,7 +46,7 @@ CAVITIES = (
     SHIPPED, (3.75, 0.01, 0.06), (3.1, 0.04, 0.06), (3.75, 0.04, 0.06), (3.1, 0.01, 0.25),
     (3.1, 0.0, 0.06), (3.1, 0.01, 0.12), (2.6, 0.01, 0.06),
 )  # fmt: skip
-RESTING = (2.1, 2.35, 2.6, 3.1, 3.75)
+RESTING = (2.1, 2.35, 2.6, 3.1)
 """Support ratios of particles that rest, 25 a side of a cavity and 24 of half a cube."""
 CUBE_END = 30.0
 """Time when the flow in the cube is steady [s]."""
