@@ -36,6 +36,32 @@ def test_sides_of_a_box():
     assert "solver.flow.back: periodic on one side only" in message
 
 
+def rests(*settings, case="lid-driven-cavity"):
+    """Frame of a shipped case that does not say it, and how far its particles see [spacings]."""
+    found = load_case(case, ["solver.frame=", *settings])
+    return found.solver.frame, found.particles.support_over_spacing
+
+
+@pytest.mark.parametrize(
+    "setting",
+    ["solver.shifting=0.01", "solver.pressure=published", "solver.viscosity=explicit",
+     "solver.step_limits=published"],
+)  # fmt: skip
+def test_particles_of_a_box_rest_unless_it_asks_for_moving_ones(setting):
+    """They see 2.6 spacings far, or as far as the case says; those that move 3.75."""
+    assert rests() == ("eulerian", 2.6)
+    assert rests("particles.support_ratio=3.1") == ("eulerian", 3.1)
+    assert rests("particles.kernel=cubic-spline") == ("eulerian", 3.0)
+    assert rests(setting) == (None, 3.75)
+
+
+def test_particles_of_pools_and_below_moving_surfaces_move():
+    """And those of sections are not asked."""
+    assert rests(case="moving-film") == (None, 3.75)
+    assert rests(POOL, case="dlip-steel") == (None, 3.75)
+    assert rests("solver.flow.surface=flat", case="spot-film") == (None, 3.75)
+
+
 def test_a_pool_takes_the_case_of_heat():
     """The shipped cases of interference become pools by one setting."""
     for name in ("dlip-steel", "dlip-aluminium"):
