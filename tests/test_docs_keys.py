@@ -55,3 +55,8 @@ def test_page_of_cases_leads_there():
     """Its source, too, as a code host shows it."""
     text = (ROOT / "docs" / "cases.md").read_text(encoding="utf-8")
     assert "](keys.md)" in text and "{include}" not in text
+
+
+def test_brackets_of_a_cell_close():
+    """No default is cut within its brackets."""
+    assert [cell for row in ROWS for cell in row if cell.count("(") != cell.count(")")] == []

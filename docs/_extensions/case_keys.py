@@ -49,8 +49,9 @@ INNER = {
     'material.optics.by_wavelength."1064 nm"': SpectralOptics,
 }
 """Tables inside those of a material."""
-DEFAULT = re.compile(r"(?:^|; )default:? ([^;]+)")
-"""What a description says of the default: it goes into the column of defaults."""
+DEFAULT = re.compile(r"(?:^|; )default:? ((?:\([^)]*\)|; else|[^;(])+)")
+"""What a description says of the default, to the next semicolon that is neither in brackets nor
+before an else: it goes into the column of defaults."""
 
 Schema = dict[str, Any]
 
