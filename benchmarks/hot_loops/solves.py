@@ -13,10 +13,12 @@ from hot_loops.particles import shape_of
 from hot_loops.sweeping import least_of_sweep
 from lasersph.compute.backend import Backend
 from lasersph.linear_solvers.bicgstab import BiCGStab
+from lasersph.linear_solvers.cells import FilledCells
 from lasersph.linear_solvers.conjugate_gradient import ConjugateGradient, PairOperator
 from lasersph.linear_solvers.grid_correction import GridCorrection
 from lasersph.linear_solvers.matrix import PairMatrix
 from lasersph.linear_solvers.multigrid import Multigrid
+from lasersph.linear_solvers.unknowns import WIDTH
 from lasersph.particles.neighbor_lists import NeighborList
 
 ITERATIONS = 20
@@ -101,9 +103,11 @@ def grid_cycle(backend: Backend, neighbors: NeighborList, diagonal) -> HotLoop:
     """Preconditioner of the pressure equation, in 2-D."""
     _, count = shape_of(neighbors)
     assert neighbors.position is not None and neighbors.support is not None
-    correction = GridCorrection(backend, count, float(backend.host_view(neighbors.support)[0]))
-    ones, none = backend.asarray(np.ones(count)), backend.zeros(count)
-    correction.prepare(neighbors.position, ones, ones, none)
+    width = WIDTH * float(backend.host_view(neighbors.support)[0])
+    cells, ones = FilledCells(backend, count, width, (0.0, 0.0)), backend.asarray(np.ones(count))
+    cells.update(neighbors.position, ones)
+    correction = GridCorrection(backend, cells)
+    correction.prepare(ones, backend.zeros(count))
     r, z = _noise(backend, count), backend.zeros(count)
 
     def run() -> int:

@@ -6,6 +6,7 @@ from scattered_pairs import LEFT, TOP, scattered
 
 from lasersph import compute
 from lasersph.linear_solvers.conjugate_gradient import ConjugateGradient, PairOperator
+from lasersph.linear_solvers.unknowns import Unknowns
 from lasersph.particles.neighbor_lists import find_neighbors
 from lasersph.particles.support import arithmetic
 from lasersph.solvers.melt_pool.pressure_equation import PressureEquation
@@ -68,7 +69,7 @@ def test_pressure():
         x, z = pairs.position
         noise = np.random.default_rng(1).standard_normal(pairs.count)
         solver = PressureEquation(
-            backend, pairs.count, pairs.support, pairs.spacing, tolerance=1e-4
+            backend, Unknowns(backend, pairs.count, pairs.support, pairs.spacing), tolerance=1e-4
         )
         g, one, volume = pairs.arrays(backend, pairs.g, np.ones(pairs.count), pairs.volume)
         solver.set_operator(pairs.neighbors(backend), g, one, volume)

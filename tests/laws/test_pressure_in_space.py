@@ -5,6 +5,7 @@ import pytest
 from periodic_pairs import periodic_pairs
 
 from lasersph import compute
+from lasersph.linear_solvers.unknowns import Unknowns
 from lasersph.solvers.melt_pool.pressure_equation import PressureEquation
 
 WAVE = 2.0 * np.pi
@@ -16,7 +17,9 @@ def equation(backend, pairs, *, mask=None, coefficient=None, tolerance=1e-8):
     """Equation of the pairs with its operator set."""
     mask = np.ones(pairs.count) if mask is None else mask
     solver = PressureEquation(
-        backend, pairs.count, pairs.support, pairs.spacing, tolerance=tolerance, period=pairs.period
+        backend,
+        Unknowns(backend, pairs.count, pairs.support, pairs.spacing, pairs.period),
+        tolerance=tolerance,
     )
     coefficient = None if coefficient is None else backend.asarray(coefficient)
     one, volume = backend.asarray(mask), backend.asarray(pairs.volume)

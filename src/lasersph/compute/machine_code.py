@@ -20,6 +20,10 @@ from lasersph.compute.native_text import NativeText
 _SUM_BYTES = 16
 _EFFORT = 3
 """LLVM's level of optimization, its highest."""
+SLOW_GATHERS = "znver"
+"""How LLVM's names of processors begin on which an instruction that reads eight places of an array
+takes longer than eight that read one. Speed: without it sums over pairs take 0.7 of the time on a
+fourth-generation EPYC (AMD), `benchmarks/roofline.py`."""
 _owners: list[Any] = []
 """Owners of machine code of Numba's, which goes with them."""
 
@@ -27,11 +31,17 @@ _owners: list[Any] = []
 @cache
 def target() -> str:
     """Short name of what machine code depends on beside the text."""
+    parts = (version("llvmlite"), *_processor())
+    return hashlib.sha256("|".join(parts).encode()).hexdigest()[:8]
+
+
+@cache
+def _processor() -> tuple[str, str]:
+    """LLVM's name of this processor, and of its instructions those that loops are to use."""
     import llvmlite.binding as llvm
 
-    features = llvm.get_host_cpu_features().flatten()
-    parts = (version("llvmlite"), llvm.get_host_cpu_name(), features)
-    return hashlib.sha256("|".join(parts).encode()).hexdigest()[:8]
+    name, features = llvm.get_host_cpu_name(), llvm.get_host_cpu_features().flatten()
+    return name, features + (",+prefer-no-gather" if name.startswith(SLOW_GATHERS) else "")
 
 
 @cache
@@ -57,9 +67,10 @@ def _machine() -> Any:
 
     llvm.initialize_native_target()
     llvm.initialize_native_asmprinter()
+    name, features = _processor()
     return llvm.Target.from_default_triple().create_target_machine(
-        cpu=llvm.get_host_cpu_name(),
-        features=llvm.get_host_cpu_features().flatten(),
+        cpu=name,
+        features=features,
         opt=_EFFORT,
         jit=True,
         codemodel="jitdefault",

@@ -16,6 +16,7 @@ from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
 from lasersph.compute.cell_grid import CellGrid, cell_along, place_along
 from lasersph.compute.vectors import vector
+from lasersph.particles.neighbor_lists import members_of
 
 EXCLUDED_COORDINATE = 1e30
 """Coordinate of what does not count [m]. Format: farther than any particle."""
@@ -114,6 +115,25 @@ class Cells:
         grid = self.grid
         out = (self.place, self.number)
         self.backend.pointwise(place_in_cell, fields, out, **grid.constants, count=grid.count)
+
+
+class FilledCells(Cells):
+    """Cells that know which particles they hold.
+
+    Attributes:
+        members: particles of each cell, in the order of the cells.
+    """
+
+    def __init__(self, backend: Backend, count: int, width: float, period: Sequence[float]) -> None:
+        super().__init__(backend, count, width, period)
+        self.members = members_of(backend, self.number, self.grid.count)
+
+    def update(self, position: Array, mask: Array) -> None:
+        """Make the cells around the particles with mask 1, and sort these by their cells."""
+        super().update(position, mask)
+        count = self.grid.count
+        kept = self.members if self.members.row_start.shape[0] == count + 1 else None
+        self.members = members_of(self.backend, self.number, count, into=kept)
 
 
 def _grid(low: Sequence[float], axes: Sequence[Axis]) -> CellGrid:

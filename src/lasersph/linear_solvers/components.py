@@ -113,13 +113,8 @@ class Components:
         self._cells = Cells(backend, count, CELL * spacing, period)
         self._share, self._members = backend.zeros(0), members_of(backend, self.number, 1)
 
-    def find(self, position: Array, mask: Array, boundary_coefficient: Array) -> None:
-        """Label the particles with mask 1.
-
-        Args:
-            position: (d, n) [m]. mask: (n,). boundary_coefficient: (n,) a_i >= 0 toward given
-                values; a component without any floats.
-        """
+    def find(self, position: Array, mask: Array) -> None:
+        """Label the particles with mask 1 (n,); position (d, n) [m]."""
         backend, cells = self.backend, self._cells
         # parts of the cells that hold particles
         cells.update(position, mask)
@@ -139,7 +134,7 @@ class Components:
         fields, out = {"cell": cells.number}, (self.number, self.mask)
         backend.pointwise(component_of, fields, out, components=components)
 
-        # members of each component, and what share of it each of them is
+        # members of each component
         kept = self._members if self._share.shape[0] == self.count + 1 else None
         self._members = members_of(backend, self.number, self.count + 1, into=kept)
         if kept is None:
@@ -148,9 +143,13 @@ class Components:
             self._slices = {"place": backend.asarray(np.arange(slices), "index")}
             self._totals = tuple([backend.zeros(slices) for _ in range(2)])
             self._share, self._means = (backend.zeros(self.count + 1) for _ in range(2))
-        totals = self._sum(boundary_coefficient)
-        start = self._members.row_start
-        backend.pointwise(share_of, self._places, self._share, totals=totals, start=start)
+
+    def find_floating(self, boundary_coefficient: Array) -> None:
+        """Find which float: those without any boundary coefficient (n,) a_i >= 0 toward given
+        values."""
+        # what share of its component each of the members is
+        totals, start = self._sum(boundary_coefficient), self._members.row_start
+        self.backend.pointwise(share_of, self._places, self._share, totals=totals, start=start)
 
     def remove_means(self, values: Array) -> tuple[float, ...]:
         """Subtract from each floating component's values their mean; reduces the sum of squares."""

@@ -4,10 +4,11 @@
 
 for A = G + a with (G p)_i = sum_j g_ij (p_i - p_j), which discretizes V_i times the Laplacian, on
 the particles whose mask is 1, in 1, 2 or 3 dimensions. P interpolates multilinearly from the nodes
-of a grid of boxes two thirds of a support radius wide (some 2.5 particles); B is a V cycle for the
-Laplacian of multilinear elements on that grid, with the particles' own volume as the share of each
-node that is filled (`grid_nodes`), on grids of twice the width and so on (`grid_levels`), one
-damped Jacobi sweep before and after, and an exact inverse where few nodes are left.
+of a grid of cells two thirds of a support radius wide (some 2.5 particles, `unknowns`); B is a V
+cycle for the Laplacian of multilinear elements on that grid, with the particles' own volume as the
+share of each node that is filled (`grid_nodes`), on grids of twice the width and so on
+(`grid_levels`), one damped Jacobi sweep before and after, and an exact inverse where few nodes are
+left.
 
 The wide stencils of particles make D^-1 a good smoother for all that is shorter than a support
 radius, and the grid carries the rest; so the number of iterations does not grow with the number of
@@ -23,8 +24,6 @@ References: [Xu1996], [Bramble1990] for the additive form.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 
 from lasersph.compute.array_types import Array
@@ -33,12 +32,9 @@ from lasersph.compute.dense import invert
 from lasersph.compute.graph import graph
 from lasersph.compute.vectors import element
 from lasersph.linear_solvers import grid_nodes
-from lasersph.linear_solvers.cells import Axis, Cells
+from lasersph.linear_solvers.cells import FilledCells
 from lasersph.linear_solvers.grid_levels import GridLevel, products_of
-from lasersph.particles.neighbor_lists import NeighborList, members_of
 
-WIDTH = 2.0 / 3.0
-"""Spacing of the finest grid over the support radius."""
 COARSEST = 80
 """Grids are coarsened until there are at most as many nodes, where axes can be: three periods of an
 odd number of cells keep up to 343."""
@@ -50,36 +46,26 @@ class GridCorrection:
     """Diagonal and grids for one set of particles.
 
     Args:
-        count: number of particles. support: radius [m]. period: per axis [m], 0.0 where there is
-            none.
+        cells: of the finest grid, which follow the particles.
 
     Attributes:
         levels: grids, the finest first.
     """
 
-    def __init__(
-        self, backend: Backend, count: int, support: float, period: Sequence[float] = (0.0, 0.0)
-    ) -> None:
+    def __init__(self, backend: Backend, cells: FilledCells) -> None:
         self.backend, self.levels = backend, list[GridLevel]()
-        self._cells = Cells(backend, count, WIDTH * support, period)
-        self._sorted_place = backend.zeros(self._cells.place.shape)
-        self._order = backend.zeros(count, "index")
+        self._cells, self._sorted_place = cells, backend.zeros(cells.place.shape)
 
-    def prepare(
-        self, position: Array, mask: Array, volume: Array, boundary_coefficient: Array
-    ) -> None:
-        """Make the grids for the particles with mask 1.
+    def prepare(self, volume: Array, boundary_coefficient: Array) -> None:
+        """Make the grids for the particles that the cells hold now.
 
         Args:
-            position: (d, n) [m]. mask: (n,). volume: (n,) V_i [m^d].
-            boundary_coefficient: (n,) a_i.
+            volume: (n,) V_i [m^d]. boundary_coefficient: (n,) a_i.
         """
-        backend, cells = self.backend, self._cells
-        # grids around the particles, and the particles of each cell
-        cells.update(position, mask)
-        if not self.levels or self.levels[0].axes != cells.axes:
-            self._make_levels(cells.axes)
-        members_of(backend, cells.number, cells.grid.count, into=self._members)
+        backend = self.backend
+        # grids around the particles
+        if not self.levels or self.levels[0].axes != self._cells.axes:
+            self._make_levels()
 
         # K of all levels, and its inverse on the coarsest
         self.set_up_levels(volume, boundary_coefficient)
@@ -88,7 +74,7 @@ class GridCorrection:
     @graph
     def set_up_levels(self, volume: Array, boundary_coefficient: Array) -> None:
         """Volumes, boundary coefficients and diagonals of all levels."""
-        places, place = {"place": self._order}, self._cells.place
+        places, place = {"place": self._cells.members.neighbor}, self._cells.place
         self.backend.pointwise(element, places, self._sorted_place, table=place)
         for values, name in ((volume, "C"), (boundary_coefficient, "a")):
             self._collect(values, (self.levels[0].at[name], None, None))
@@ -122,10 +108,9 @@ class GridCorrection:
             corners=self._corners,
         )
 
-    def _make_levels(self, axes: tuple[Axis, ...]) -> None:
+    def _make_levels(self) -> None:
         """Grids for cells along these axes, and the tables between cells and nodes."""
-        backend, cells = self.backend, self._cells.grid
-        self._members = NeighborList(backend.zeros(cells.count + 1, "offset"), self._order)
+        backend, cells, axes = self.backend, self._cells.grid, self._cells.axes
         self._places = {"k": backend.asarray(np.arange(cells.count), "index")}
 
         # every other node, until few are left or no axis has every other one
@@ -145,15 +130,15 @@ class GridCorrection:
 
     def _collect(self, values: Array, out: tuple) -> None:
         """P^T of the particles' values into the finest grid, as `grid_nodes.started`."""
-        backend = self.backend
+        backend, members = self.backend, self._cells.members
         # toward the corners of each cell, then from the cells around each node
         backend.pointwise(
             grid_nodes.corner_sums,
             self._places,
             self._sums_of_cells,
             values=values,
-            order=self._order,
-            start=self._members.row_start,
+            order=members.neighbor,
+            start=members.row_start,
             place=self._sorted_place,
             nothing=(0.0,) * self._sums.shape[0],
         )

@@ -64,17 +64,24 @@ def evened_ring_weight(g_ij, layer_i, layer_j, ring_i, ring_j, has_none_j, addit
 
 
 def ring_pair(g_ij, measure_i, measure_j, beyond_j, r_i, r_j, c_i, c_j):
-    """Values of a pair of rings: its weight twice, of flow and of heat, and `hoop_share`."""
+    """Values of a pair of rings: its weight twice, of flow and of heat, `mean_share`, which is 0
+    toward the image of a particle beyond the axis, and `hoop_share`."""
     g = ring_weight_off_axis(g_ij, measure_i, measure_j, beyond_j)
-    return g, g, hoop_share(r_i, r_j, c_i, c_j)
+    share = mean_share(r_i, r_j, c_i) if beyond_j == 0.0 else 0.0 * g
+    return g, g, share, hoop_share(r_i, r_j, c_i, c_j)
 
 
-def hoop_share(r_i, r_j, c_i, c_j):
-    """r_ij^2/(r_i r_j): what u_j/r_j counts for times r_i [1].
+def mean_share(r_i, r_j, c_i):
+    """r_ij/r_i: the mean ring over that of i [1].
 
     Args:
         r: distance from the axis [m]. c: 1/r, so that no pair divides [1/m].
     """
+    return 0.5 * (r_i + r_j) * c_i
+
+
+def hoop_share(r_i, r_j, c_i, c_j):
+    """r_ij^2/(r_i r_j): what u_j/r_j counts for times r_i [1]; arguments of `mean_share`."""
     middle = 0.5 * (r_i + r_j)
     return middle * middle * (c_i * c_j)
 
@@ -89,26 +96,22 @@ def ring_momentum(g_ij, v_i, v_j, hoop_ij):
     return g_ij * vector(hoop_ij * (v_j[0] - v_i[0]), v_j[1] - v_i[1])
 
 
-def ring_resistance(g_ij, r_i, r_j, c_i, c_j):
+def ring_resistance(g_ij, mean_ij, hoop_ij):
     """K: share of u_i that the hoop stress takes beside `ring_momentum` [m],
-    r_ij^2 (1/r_i^2 - 1/(r_i r_j)); arguments of `hoop_share`."""
-    middle = 0.5 * (r_i + r_j)
-    return g_ij * (middle * middle * c_i * (c_i - c_j))
+    r_ij^2 (1/r_i^2 - 1/(r_i r_j)), by `mean_share` and `hoop_share`."""
+    return g_ij * (mean_ij * mean_ij - hoop_ij)
 
 
-def ring_diagonal(g_ij, r_i, r_j, c_i):
+def ring_diagonal(g_ij, mean_ij):
     """Share of v_i that both take, by component: diagonal of their matrix [m]."""
-    middle = 0.5 * (r_i + r_j) * c_i
-    return g_ij * vector(middle * middle, 1.0)
+    return g_ij * vector(mean_ij * mean_ij, 1.0)
 
 
-def ring_divergence_term(v_i, v_j, C_i, G_ij, r_i, r_j, c_i, beyond_j):
+def ring_divergence_term(v_i, v_j, C_i, G_ij, mean_ij):
     """Term of the divergence of a velocity [1/s]: r_ij/r_i (v_i + v_j) . C G_ij, 0 across the axis.
 
     Its part v_i . C G_ij counts along r alone: across it sums up to nothing where particles are
     even, and to an error where they are not.
     """
     gradient = matvec(C_i, G_ij)
-    change = dot(v_j - v_i, gradient) + 2.0 * v_i[0] * gradient[0]
-    share = 0.5 if beyond_j == 0.0 else 0.0
-    return share * (r_i + r_j) * c_i * change
+    return mean_ij * (dot(v_j - v_i, gradient) + 2.0 * v_i[0] * gradient[0])

@@ -17,7 +17,8 @@ def found(backend, position, mask=None, boundary_coefficient=None, period=(0.0, 
     components = Components(backend, count, SPACING, period)
     mask = np.ones(count) if mask is None else mask
     boundary_coefficient = np.zeros(count) if boundary_coefficient is None else boundary_coefficient
-    components.find(*(backend.asarray(v) for v in (position, mask, boundary_coefficient)))
+    components.find(backend.asarray(position), backend.asarray(mask))
+    components.find_floating(backend.asarray(boundary_coefficient))
     return components, backend.to_host(components.number).tolist()
 
 

@@ -5,8 +5,9 @@ import pytest
 from scattered_pairs import LEFT, TOP, scattered
 
 from lasersph.linear_solvers import grid_nodes
-from lasersph.linear_solvers.cells import Axis, Cells
+from lasersph.linear_solvers.cells import Axis, Cells, FilledCells
 from lasersph.linear_solvers.grid_correction import COARSEST, GridCorrection
+from lasersph.linear_solvers.unknowns import WIDTH
 
 
 def prepared(
@@ -21,17 +22,14 @@ def prepared(
 ):
     """Correction for the positions, and its mask."""
     count = position.shape[1]
-    correction = GridCorrection(backend, count, support, period)
+    cells = FilledCells(backend, count, WIDTH * support, period)
     mask = np.ones(count) if mask is None else mask
     volume = np.ones(count) if volume is None else volume
     boundary_coefficient = np.zeros(count) if boundary_coefficient is None else boundary_coefficient
     mask = backend.asarray(mask)
-    correction.prepare(
-        backend.asarray(position),
-        mask,
-        backend.asarray(volume),
-        backend.asarray(boundary_coefficient),
-    )
+    cells.update(backend.asarray(position), mask)
+    correction = GridCorrection(backend, cells)
+    correction.prepare(backend.asarray(volume), backend.asarray(boundary_coefficient))
     return correction, mask
 
 

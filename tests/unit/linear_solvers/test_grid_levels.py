@@ -5,7 +5,7 @@ import pytest
 
 from lasersph.compute.cuda_device import IS_SIMULATED
 from lasersph.linear_solvers import grid_nodes
-from lasersph.linear_solvers.cells import Axis
+from lasersph.linear_solvers.cells import Axis, FilledCells
 from lasersph.linear_solvers.grid_correction import GridCorrection
 from lasersph.linear_solvers.grid_levels import GridLevel, couplings
 
@@ -144,7 +144,8 @@ def test_damped_sweep_reduces_short_waves(backend, dimension):
 
 def test_odd_periods_stay(backend):
     """Three periods of five cells keep their 125 nodes, more than other grids end with."""
-    correction = GridCorrection(backend, 1, 1.5, (5.0,) * 3)
-    given = (np.full((3, 1), 0.5), np.ones(1), np.ones(1), np.zeros(1))
-    correction.prepare(*map(backend.asarray, given))
+    cells, one = FilledCells(backend, 1, 1.0, (5.0,) * 3), backend.asarray(np.ones(1))
+    cells.update(backend.asarray(np.full((3, 1), 0.5)), one)
+    correction = GridCorrection(backend, cells)
+    correction.prepare(one, backend.zeros(1))
     assert [level.count for level in correction.levels] == [125]

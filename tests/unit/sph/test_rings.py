@@ -5,6 +5,7 @@ import pytest
 
 from lasersph.sph.rings import (
     hoop_share,
+    mean_share,
     ring_diagonal,
     ring_divergence_term,
     ring_momentum,
@@ -26,9 +27,9 @@ def test_weight_is_that_of_the_mean_ring():
 
 def force_of_pair(v_i, v_j, r_i, r_j, g=1.0):
     """Viscous force on ring i beside ring j, through the pair and by the hoop stress."""
-    r_and_c = (r_i, r_j, 1.0 / r_i, 1.0 / r_j)
-    through_pair = ring_momentum(g, np.array(v_i), np.array(v_j), hoop_share(*r_and_c))
-    return through_pair - np.array([ring_resistance(g, *r_and_c) * v_i[0], 0.0])
+    mean, hoop = mean_share(r_i, r_j, 1.0 / r_i), hoop_share(r_i, r_j, 1.0 / r_i, 1.0 / r_j)
+    through_pair = ring_momentum(g, np.array(v_i), np.array(v_j), hoop)
+    return through_pair - np.array([ring_resistance(g, mean, hoop) * v_i[0], 0.0])
 
 
 def test_momentum_of_two_rings():
@@ -54,21 +55,24 @@ def test_matrix_is_symmetric():
 
 def test_diagonal_is_what_the_row_itself_loses():
     """By component, through its pairs and beside them."""
-    diagonal = ring_diagonal(1.0, INNER, OUTER, 1.0 / INNER)
+    diagonal = ring_diagonal(1.0, mean_share(INNER, OUTER, 1.0 / INNER))
     assert diagonal == pytest.approx(-force_of_pair([1.0, 1.0], [0.0, 0.0], INNER, OUTER))
 
 
 def test_values_of_a_pair():
-    """Its weight for flow and heat, 0 beyond the axis, and what u_j counts for."""
+    """Its weight for flow and heat and the mean ring, 0 beyond the axis, and what u_j counts
+    for."""
     r_and_c = (INNER, OUTER, 1.0 / INNER, 1.0 / OUTER)
     found = ring_pair(2.0, 2.0, 6.0, 0.0, *r_and_c)
-    assert found == pytest.approx((8.0, 8.0, 4.0 / 3.0))
-    assert ring_pair(2.0, 2.0, 6.0, 1.0, *r_and_c)[:2] == (0.0, 0.0)
+    assert found == pytest.approx((8.0, 8.0, 2.0, 4.0 / 3.0))
+    assert ring_pair(2.0, 2.0, 6.0, 1.0, *r_and_c)[:3] == (0.0, 0.0, 0.0)
 
 
 def test_divergence_of_two_rings():
-    """r_ij/r_i = 2: twice (u_j - u_i + 2 u_i) G_r + (w_j - w_i) G_z; nothing across the axis."""
+    """r_ij/r_i = 2: twice (u_j - u_i + 2 u_i) G_r + (w_j - w_i) G_z; nothing across the axis,
+    where it counts for 0."""
     v_i, v_j, G = np.array([1.0, 2.0]), np.array([6.0, 5.0]), np.array([0.5, 0.25])
-    pair = (v_i, v_j, np.eye(2), G, INNER, OUTER, 1.0 / INNER)
-    assert ring_divergence_term(*pair, 0.0) == 2.0 * (7.0 * 0.5 + 3.0 * 0.25)
-    assert ring_divergence_term(*pair, 1.0) == 0.0
+    mean = mean_share(INNER, OUTER, 1.0 / INNER)
+    found = ring_divergence_term(v_i, v_j, np.eye(2), G, mean)
+    assert found == 2.0 * (7.0 * 0.5 + 3.0 * 0.25)
+    assert ring_divergence_term(v_i, v_j, np.eye(2), G, 0.0) == 0.0

@@ -18,7 +18,7 @@ from lasersph.physics.artificial_viscosity import alpha_between, closing_speed, 
 from lasersph.physics.continuity import density_rate
 from lasersph.physics.losses import surface_loss
 from lasersph.physics.momentum import pair_acceleration
-from lasersph.sph.laplacian import conduction, weight
+from lasersph.sph.laplacian import conduction, harmonic_mean, weight
 
 
 def pair_rates(
@@ -111,6 +111,16 @@ def pair_heat(T_i, T_j, k_i, k_j, V_i, V_j, r_ij, dW_ij, factor):
 def pair_weight(V_i, V_j, r_ij, dW_ij, factor):
     """Conduction weight of a pair that stays where it is [m^(d-2)], see `laplacian.weight`."""
     return factor * weight(V_i, V_j, r_ij, dW_ij)
+
+
+def pair_conductance(V_i, V_j, k_i, k_j, r_ij, dW_ij, factor):
+    """`pair_weight` times the harmonic mean of conductivities that stay as they are [W/K]."""
+    return pair_weight(V_i, V_j, r_ij, dW_ij, factor) * harmonic_mean(k_i, k_j)
+
+
+def conducted(g_ij, T_i, T_j):
+    """Heat flowing from j into i [W], g_ij by `pair_conductance`."""
+    return g_ij * (T_j - T_i)
 
 
 def advance(x, v, rho, h, kind, v_rate, a, drho, dh, dt):

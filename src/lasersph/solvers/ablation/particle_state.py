@@ -89,7 +89,7 @@ class ParticleState:
 
     Attributes:
         now, half: at the start and in the middle of the step; the latter has the fields of `LEVEL`
-            alone.
+            alone. conducts_alike: whether the conductivity is one number at all temperatures.
     """
 
     def __init__(
@@ -116,6 +116,7 @@ class ParticleState:
 
         # tables of the caloric curve and of k(T), constants of the equation of state
         T, k = material.table("conductivity", 1.0, HOTTEST)
+        self.conducts_alike = float(np.ptp(k)) == 0.0
         nodes = curve.tables | {"k_T": T, "k_nodes": k}
         self._tables = {name: backend.asarray(values) for name, values in nodes.items()} | {
             "melts_at": melts_at,

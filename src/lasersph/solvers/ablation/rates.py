@@ -2,7 +2,8 @@
 
 Mostly little can change, and only that is computed:
 
-    NOTHING    moves: dh/dt alone, between pairs that are weighed once
+    NOTHING    moves: dh/dt alone, between pairs that are weighed once, with the conductivity where
+               that is one number
     VAPOR      moves, what leaves the surface, at constant velocity, while no force acts on the
                rest: dh/dt and its position, between pairs that are weighed anew. Of the published
                rule, most steps under light are of this kind.
@@ -22,8 +23,10 @@ from lasersph.solvers.ablation.equations import (
     advance,
     advance_enthalpy,
     advance_vapor,
+    conducted,
     energy_gain,
     heat_rates,
+    pair_conductance,
     pair_heat,
     pair_rates,
     pair_weight,
@@ -57,7 +60,8 @@ class Rates:
         area: (N,) open area of each particle [m^(dim-1)], kept up to date.
 
     Attributes:
-        moving: what may change. weights: (pairs,) of pairs at rest [m^(d-2)]; None where unknown.
+        moving: what may change. weights: (pairs,) of pairs at rest [m^(d-2)], with a conductivity
+            that is one number [W/K]; None where unknown.
     """
 
     weights: Array | None
@@ -94,10 +98,11 @@ class Rates:
             self.weights = None
         elif self.weights is None:
             # g_ij of pairs at rest, which stay the same while nothing moves
-            backend, pairs = self.particles.backend, self.pairs.now
-            self.weights, fields = backend.zeros(pairs.neighbor.shape[0]), self.particles.fields()
-            factor = self.parameters.weight_factor
-            backend.pair_values(pair_weight, pairs, fields, self.weights, rows=rows, factor=factor)
+            particles, pairs, factor = self.particles, self.pairs.now, self.parameters.weight_factor
+            backend, fields = particles.backend, particles.fields()
+            self.weights = backend.zeros(pairs.neighbor.shape[0])
+            weight = pair_conductance if particles.conducts_alike else pair_weight
+            backend.pair_values(weight, pairs, fields, self.weights, rows=rows, factor=factor)
 
     def evaluate(self, level: Particles, step: float, rows: Rows | None) -> float:
         """Find the rates at a level, and what limits the next step; returns the heat lost [W]."""
@@ -127,7 +132,7 @@ class Rates:
         term, constants = pair_heat, {"factor": self.parameters.weight_factor}
         if self.moving is Moving.NOTHING:
             assert self.weights is not None
-            term, constants = harmonic_flow, {}
+            term, constants = conducted if particles.conducts_alike else harmonic_flow, {}
             pairs, fields["g_ij"] = self.pairs.now, self.weights
         (lost,) = backend.pair_sum(
             term,

@@ -267,12 +267,12 @@ class Ablation:
             "exposed": surface.at_surface,
             "normal": surface.normal,
         }
-        # count what they take along; the surface lies lower now
+        # count what they take along; the surface lies lower now, and they conduct no more
         ejecta = self.ejection.eject(fields, self.pairs.now, self.rows, self.state.time, step)
         self.body.refresh(self.particles, self.rows)
         if ejecta.number:
             self.state.count_ejecta(ejecta)
-            self._is_surface_current = False
+            self._rates.weights, self._is_surface_current = None, False
 
     def _move_ejecta(self, step: float) -> None:
         """Move what has been ejected, straight on until it passes the edge of what is followed."""

@@ -62,7 +62,8 @@ class Block:
         rows: numbers of the particles whose pairs were found, None for
             all of the block; has_row: (count,) 1 for them, or None. rows_near_faces: those, of
             complete rows, that may have ghosts as neighbors. rows_across: those with pairs across
-            the tangents of a surface that moves; None where none does.
+            the tangents of a surface that moves; None where none does. placings: how often
+            particles have been put in places.
     """
 
     reach = 1.0
@@ -118,6 +119,7 @@ class Block:
         self.pairs = NeighborList(backend.zeros(count + 1, "offset"), nothing)
         self.rows: Rows | None = None
         self.has_row: Array | None = None
+        self.placings = 0
         self.rows_near_faces: Rows = nothing
         self._geometry = PairGeometry(backend, lattice.weighing, dimension)
         self._capacity = Room()
@@ -176,6 +178,7 @@ class Block:
         backend = self.backend
         ghosts, layers = self.ghosts, self.layers
         self.has_row = has_row
+        self.placings += 1
         self.rows = None if has_row is None else backend.rows_where(has_row, 1.0)
 
         # ghosts, what they have of their sources and of the faces between
@@ -265,6 +268,7 @@ class Block:
     def move(self, position: Array) -> None:
         """The same pairs at other positions."""
         # lists are kept, distances and what follows from them are not
+        self.placings += 1
         self.place_pairs(position)
         self._adapt_weights(position)
 

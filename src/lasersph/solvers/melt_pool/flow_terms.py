@@ -37,9 +37,15 @@ def divergence_terms(v_i, v_j, C_i, G_ij, VW_ij):
     return corrected_divergence_term(v_i, v_j, C_i, G_ij), VW_ij
 
 
-def ring_divergence_terms(v_i, v_j, C_i, G_ij, VW_ij, r_i, r_j, c_i, beyond_j):
+def ring_divergence_terms(v_i, v_j, C_i, G_ij, VW_ij, mean_ij):
     """`divergence_terms` of rings."""
-    return ring_divergence_term(v_i, v_j, C_i, G_ij, r_i, r_j, c_i, beyond_j), VW_ij
+    return ring_divergence_term(v_i, v_j, C_i, G_ij, mean_ij), VW_ij
+
+
+def ring_shares(g_ij, mean_ij, hoop_ij):
+    """Shares of v_i that pairs of rings take by component, and of u_i that the hoop stress takes
+    [m]."""
+    return ring_diagonal(g_ij, mean_ij), ring_resistance(g_ij, mean_ij, hoop_ij)
 
 
 def divergence_load(total_0, total_1, V, fraction, lattice_sum, rate):
@@ -90,30 +96,30 @@ class FlowTerms(NamedTuple):
     """Pair functions of the flow that differ by geometry.
 
     Attributes:
-        momentum: viscous force over eta that pairs pass on. resistance: of u, what the hoop stress
-            takes beside them, None in a plane. diagonal: what both take of v_i, a number or one of
-            each component, by diagonal_shape. divergence: of a velocity. divergence_terms: that,
-            and the kernel sum. drift_rate: at which particles that are too dense part, over the
-            largest speed per spacing.
+        momentum: viscous force over eta that pairs pass on. shares: what they take of v_i, a number
+            or one of each component by diagonal_shape, and of rings what the hoop stress takes
+            beside it. has_hoop_stress: whether there are rings. divergence: of a velocity.
+            divergence_terms: that, and the kernel sum. drift_rate: at which particles that are too
+            dense part, over the largest speed per spacing.
     """
 
     momentum: Callable[..., Any]
-    resistance: Callable[..., Any] | None
-    diagonal: Callable[..., Any]
+    shares: Callable[..., Any]
     diagonal_shape: tuple[int, ...]
+    has_hoop_stress: bool
     divergence: Callable[..., Any]
     divergence_terms: Callable[..., Any]
     drift_rate: float
 
 
 PLANE = FlowTerms(
-    momentum, None, weight_of, (), corrected_divergence_term, divergence_terms, DRIFT_RATE
+    momentum, weight_of, (), False, corrected_divergence_term, divergence_terms, DRIFT_RATE
 )
 RINGS = FlowTerms(
     ring_momentum,
-    ring_resistance,
-    ring_diagonal,
+    ring_shares,
     (2,),
+    True,
     ring_divergence_term,
     ring_divergence_terms,
     0.0,

@@ -22,9 +22,10 @@ EDGE_RATIO = 1.5
 1.41 apart, the next but one 2."""
 
 
-def is_fluid(f_m):
-    """1 where a particle flows, else 0."""
-    return 1.0 if f_m >= MOLTEN else 0.0
+def is_fluid(f_m, fluid):
+    """1 where a particle flows, else 0; the same; and 1 where that has changed."""
+    flows = 1.0 if f_m >= MOLTEN else 0.0
+    return flows, flows, abs(flows - fluid)
 
 
 def stop_solid(v, fluid):
@@ -60,7 +61,8 @@ class ParticleKinds:
         kind: (n,) see `particles.kinds`. fluid, unknown, dummy: (n,) 1 where a particle flows; its
             pressure is an unknown; it takes that of the edge. active: 1 for all three. before:
             (n,) `fluid` one step ago.
-        fluid_rows, unknown_rows, dummy_rows, active_rows: index arrays.
+        fluid_rows, unknown_rows, dummy_rows, active_rows: index arrays. changes: how often what
+            flows has become another.
     """
 
     def __init__(self, particles: Particles, spacing: float, *, is_box: bool) -> None:
@@ -75,15 +77,17 @@ class ParticleKinds:
         self.unknown_rows: Rows = backend.zeros(0, "index")
         self.dummy_rows: Rows = backend.zeros(0, "index")
         self.active_rows: Rows = backend.zeros(0, "index")
-        self._is_marked = False
+        self._is_marked, self.changes = False, 0
 
     def find_fluid(self, melt_fraction: Array) -> float:
         """Mark what flows, all of a box; returns how many particles do."""
         if self.is_box:
             self._mark_all()
             return float(self.fluid.shape[0])
-        fields = {"f_m": melt_fraction}
-        return self.backend.pointwise(is_fluid, fields, (self.fluid,), reduce=("sum",))[0]
+        fields, out = {"f_m": melt_fraction, "fluid": self.fluid}, (self.fluid, None, None)
+        count, changed = self.backend.pointwise(is_fluid, fields, out, reduce=(None, "sum", "sum"))
+        self.changes += changed > 0.0
+        return count
 
     def _mark_all(self) -> None:
         """Mark all as fluid, once for all."""

@@ -27,11 +27,10 @@ class PassingBlock(Block):
 
     Attributes:
         measure: (M,) what a cell stands for: 2 pi r of rings [m], else 1 [1]; of ghosts that of
-            their sources. mirrored: (M,) 1 for images beyond planes. unfolded: (d, M) places, of
-            images those of the sources along the axes that are mirrored [m]. tangents: (M,) 1 for
-            the ghost of a particle across the tangent of a surface that moves, 2 for that of its
-            image beyond a side, 0 for all others. beyond_axis: (M,) 1 for images beyond the axis
-            of rings.
+            their sources. unfolded: (d, M) places, of images those of the sources along the axes
+            that are mirrored [m]. crossing: (M,) -1 for images beyond planes, 1 for the ghost of a
+            particle across the tangent of a surface that moves, 2 for that of its image beyond a
+            side, 0 for all others. beyond_axis: (M,) 1 for images beyond the axis of rings.
     """
 
     def __init__(self, *args: Any, **options: Any) -> None:
@@ -43,10 +42,9 @@ class PassingBlock(Block):
         is_plane = (types.sign < 0).any(axis=0) & (types.crosses_surface == 0.0)
         beyond_axis = (types.crossed[0] == LOWER) & geometry.is_axisymmetric
         table = self.ghosts.particles.table
-        self._mirrored = table(is_plane.astype(float))
-        self._tangents = table(types.crosses_surface * (1.0 + beside))
+        self._crossing = table(types.crosses_surface * (1.0 + beside) - is_plane)
         self._crosses_axis = table(beyond_axis.astype(float))
-        self.measure = self.mirrored = self.tangents = self.beyond_axis = self._lengths
+        self.measure = self.crossing = self.beyond_axis = self._lengths
         self.unfolded = self._lengths
 
     def _renewed(self, before: Array, values: Array) -> Array:
@@ -62,8 +60,7 @@ class PassingBlock(Block):
         of_type = self.ghosts.of_type
         self.unfolded = self._renewed(self.unfolded, self.ghosts.unfold(position))
         self.measure = self._renewed(self.measure, self.gather(self._lengths))
-        self.mirrored = self._renewed(self.mirrored, of_type(self._mirrored))
-        self.tangents = self._renewed(self.tangents, of_type(self._tangents))
+        self.crossing = self._renewed(self.crossing, of_type(self._crossing))
         self.beyond_axis = self._renewed(self.beyond_axis, of_type(self._crosses_axis))
 
     def renew_pairs(self, position: Array, near: Array | None) -> None:

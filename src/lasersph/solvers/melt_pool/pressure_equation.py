@@ -26,7 +26,6 @@ Reference: [Saad2003], Algorithm 9.1.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
 
@@ -34,9 +33,9 @@ from lasersph.compute.array_types import Array
 from lasersph.compute.backend import Backend
 from lasersph.compute.graph import graph
 from lasersph.compute.kept_array import KeptArray
-from lasersph.linear_solvers.components import Components
 from lasersph.linear_solvers.grid_correction import GridCorrection
 from lasersph.linear_solvers.iteration import conjugate_gradients
+from lasersph.linear_solvers.unknowns import Unknowns, Version
 from lasersph.particles.neighbor_lists import NeighborList
 from lasersph.solvers.step_control import NotConverged
 
@@ -125,10 +124,9 @@ class PressureEquation:
     """Operator of the present particles, and the solver with its work vectors.
 
     Args:
-        count: particles of the block, n. support, spacing: of them [m].
-        tolerance: residual over right-hand side that ends the iteration (2-norms).
-        max_iterations: where it ends anyhow. period: per axis [m], 0.0 where there is none.
-        is_even: whether all particles have one volume.
+        unknowns: among the particles of the block. tolerance: residual over right-hand side that
+            ends the iteration (2-norms). max_iterations: where it ends anyhow. is_even: whether all
+            particles have one volume.
 
     Attributes:
         components: pools, `components.count` of them, see `linear_solvers.components`.
@@ -137,18 +135,16 @@ class PressureEquation:
     def __init__(
         self,
         backend: Backend,
-        count: int,
-        support: float,
-        spacing: float,
+        unknowns: Unknowns,
         *,
         tolerance: float,
         max_iterations: int = MAX_ITERATIONS,
-        period: Sequence[float] = (0.0, 0.0),
         is_even: bool = True,
     ) -> None:
         self.backend, self.tolerance, self.max_iterations = backend, tolerance, max_iterations
-        self.components = Components(backend, count, spacing, period)
-        self._correction = GridCorrection(backend, count, support, period)
+        self._unknowns, self.components = unknowns, unknowns.components
+        self._correction = GridCorrection(backend, unknowns.cells)
+        count = self.components.number.shape[0]
         self._nothing, self._inner = backend.zeros(count), KeptArray(backend)
         self._is_even, self._volume = is_even, self._nothing
         # diagonal and right-hand side, residual r, z = M^-1 r, direction s and A s
@@ -168,6 +164,7 @@ class PressureEquation:
         mask: Array,
         volume: Array,
         coefficient: Array | None = None,
+        version: Version | None = None,
     ) -> None:
         """Take the operator of the present particles; call it whenever one of these has changed.
 
@@ -175,6 +172,7 @@ class PressureEquation:
             neighbors: folded list of pairs with position (d, n) [m]. weights: (pairs,) g_ij.
             mask: (n,) 1 for unknown pressures, else 0. volume: (n,) V_i [m^2].
             coefficient: (n,) a_i >= 0; None for no boundary with a given pressure.
+            version: of positions and mask, see `Unknowns.find`.
         """
         components = self.components
         self._neighbors, self._weights, self._volume = neighbors, weights, volume
@@ -182,12 +180,13 @@ class PressureEquation:
         position = neighbors.position
         assert position is not None
         # pools that do not touch have a pressure each: weights between them count for nothing
-        components.find(position, mask, self._coefficient)
+        self._unknowns.find(position, mask, version)
+        components.find_floating(self._coefficient)
         if components.count > 1:
             self._weights = self._inner.of(weights.shape[0])
         # diagonal, and the preconditioner of the present particles
         self.sum_weights(weights)
-        self._correction.prepare(position, components.mask, volume, self._coefficient)
+        self._correction.prepare(volume, self._coefficient)
 
     def solve(
         self, b: Array, pressure: Array, *, value: Array | None = None, flux: Array | None = None

@@ -15,6 +15,7 @@ from math import exp
 
 from lasersph.compute.array_types import Array
 from lasersph.compute.graph import graph
+from lasersph.linear_solvers.unknowns import Unknowns
 from lasersph.particles.particles import Particles
 from lasersph.solvers.melt_pool import flow_terms as terms
 from lasersph.solvers.melt_pool.block import Block
@@ -41,8 +42,8 @@ class Projection:
             geometry.
 
     Attributes:
-        equation: for the pressure. lowest: pressure above which the gradient counts [Pa].
-            gradient_fields: of its sum in the last step, p [Pa], G and C.
+        unknowns: whose pressure it is. equation: for the pressure. lowest: pressure above which the
+            gradient counts [Pa]. gradient_fields: of its sum in the last step, p [Pa], G and C.
     """
 
     def __init__(
@@ -72,17 +73,15 @@ class Projection:
         self._lattice_sum = kernel_sum(weighing.kernel, weighing.ratio)
 
         # the equation for p: conjugate gradients, or the paper's matrix for comparison
+        self.unknowns = unknowns_of(block)
         self.equation: PressureEquation | PublishedPressure
         if settings.pressure == "published":
             self.equation = PublishedPressure(backend, count, tolerance=self.tolerance)
         else:
             self.equation = PressureEquation(
                 backend,
-                count,
-                block.layers.moving_support,
-                block.spacing,
+                self.unknowns,
                 tolerance=self.tolerance,
-                period=block.conditions.periods,
                 is_even=not block.lattice.geometry.is_axisymmetric,
             )
 
@@ -174,6 +173,7 @@ class Projection:
             head(kinds.unknown, block.count),
             self.volume,
             coefficient,
+            version=(block.placings, kinds.changes),
         )
         return equation.solve(self._load, self._p, value=value)
 
@@ -261,3 +261,9 @@ class Projection:
         jump = self.surface.settled_jump(self._settled_jump)
         v = block.ghosts.mirror_velocity(self.velocity, jump)
         return {"v": v, "C": block.correction, "G_ij": block.gradient, **block.ring_fields}
+
+
+def unknowns_of(block: Block) -> Unknowns:
+    """Unknowns among the particles of a block."""
+    support, periods = block.layers.moving_support, block.conditions.periods
+    return Unknowns(block.backend, block.count, support, block.spacing, periods)

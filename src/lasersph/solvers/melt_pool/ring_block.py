@@ -28,7 +28,7 @@ class Rings(PassingBlock):
         self._curvature = self.backend.asarray(1.0 / position[0])
         self._radii = self._curvatures = self._lengths
         self._numbers = self.backend.asarray(np.arange(float(self.count)))
-        self._heat = self._hoop = self.weights
+        self._heat = self._mean = self._hoop = self.weights
         self._is_uneven = self._find_uneven(position[0])
 
     def _find_uneven(self, r: np.ndarray) -> Array | None:
@@ -50,25 +50,21 @@ class Rings(PassingBlock):
 
     @property
     def ring_fields(self) -> dict[str, Array]:
-        """Distances from the axis of rings and ghosts [m], those of their sources, and 1/r [1/m];
-        which lie beyond it; of pairs what the hoop stress makes of u (`sph.rings.hoop_share`)
-        [1]."""
-        return self._distances | {"hoop_ij": self._hoop}
-
-    @property
-    def _distances(self) -> dict[str, Array]:
-        """Distances from the axis of rings and ghosts [m], 1/r [1/m], and which lie beyond it."""
-        return {"r": self._radii, "c": self._curvatures, "beyond": self.beyond_axis}
+        """Of pairs the mean ring over that of the row, and what the hoop stress makes of u [1], see
+        `sph.rings`."""
+        return {"mean_ij": self._mean, "hoop_ij": self._hoop}
 
     def _adapt_weights(self, position: Array) -> None:
         """Weights of rings: those of the plane times their mean length, none across the axis."""
         super()._adapt_weights(position)
         self._radii = self._renewed(self._radii, self.gather(self._radius))
         self._curvatures = self._renewed(self._curvatures, self.gather(self._curvature))
-        # of the flow and of heat, and what the hoop stress makes of u
-        self._heat, self._hoop = (self._geometry.per_pair(name) for name in ("heat", "hoop"))
-        fields = {"g_ij": self.weights, "measure": self.measure, **self._distances}
-        out = (self.weights, self._heat, self._hoop)
+        # of the flow and of heat, and what both rings are over one of them
+        names = ("heat", "mean", "hoop")
+        self._heat, self._mean, self._hoop = (self._geometry.per_pair(name) for name in names)
+        fields = {"g_ij": self.weights, "measure": self.measure, "beyond": self.beyond_axis}
+        fields |= {"r": self._radii, "c": self._curvatures}
+        out = (self.weights, self._heat, self._mean, self._hoop)
         self.backend.pair_values(ring_pair, self.pairs, fields, out, rows=self.rows)
         if self._is_uneven is not None:
             self._even_heat(self._is_uneven)

@@ -43,6 +43,7 @@ from lasersph.solvers.melt_pool.particle_kinds import ParticleKinds
 from lasersph.solvers.melt_pool.particle_shifting import clip_to_range
 from lasersph.solvers.melt_pool.passing_block import PassingBlock
 from lasersph.solvers.melt_pool.pressure_equation import PressureEquation
+from lasersph.solvers.melt_pool.projection import unknowns_of
 from lasersph.surface.riding_surface import Ride
 
 TOLERANCE = 1e-6
@@ -68,17 +69,17 @@ def pair_flux(v_i, v_j, pool_i, pool_j, g_ij, x_ij):
     return -(same if pool_i > 0 else 0.0) * g_ij * dot(v_i + v_j, x_ij)
 
 
-def flux_across(flux_ij, pool_i, pool_j, g_ij, source_i, source_j, tangent_j, u, place, distance):
+def flux_across(flux_ij, pool_i, pool_j, g_ij, source_i, source_j, crossing_j, u, place, distance):
     """Flux of a pair across a surface that moves [m^3/s], the same from both sides; of all others
     as it is.
 
     Args:
-        tangent: see `PassingBlock`. u, place, distance: tables of the velocity of the melt over the
-            particles, of places and of distances from the surface.
+        crossing: see `PassingBlock`. u, place, distance: tables of the velocity of the melt over
+            the particles, of places and of distances from the surface.
     """
-    if tangent_j == 0.0:
+    if crossing_j <= 0.0:
         return 1.0 * flux_ij
-    if pool_i == 0 or pool_i != pool_j or tangent_j > 1.0:
+    if pool_i == 0 or pool_i != pool_j or crossing_j > 1.0:
         return 0.0 * g_ij
     # what the tangent at one of both turns, mirrored
     u_i, u_j = u[source_i], u[source_j]
@@ -173,19 +174,18 @@ def exchange_terms(
     x_ij,
     y_i,
     y_j,
-    mirrored_j,
-    tangent_j,
+    crossing_j,
 ):
     """h and v of the middle of the step that a pair exchanges, times its closed flux."""
     h_i, h_j, v_i, v_j = carried_h_i, carried_h_j, carried_v_i, carried_v_j
     F_ij = closed_flux(flux_ij, g_ij, pool_i, pool_j, phi_i, phi_j)
     gives = 1.0 if F_ij > 0.0 else 0.0
     # beyond a surface that bends the value of the giver itself
-    goes_on = 0.0 if tangent_j > 0.0 else 1.0
+    goes_on = 0.0 if crossing_j > 0.0 else 1.0
     low, high, y_ij = middle_h_i, middle_h_j, y_i - y_j
     h = exchanged_enthalpy(gives, goes_on, h_i, h_j, low, high, grad_h_i, grad_h_j, y_ij)
     # across a plane v of the middle of its profile, which bends there
-    share = 0.5 if mirrored_j > 0.0 else gives
+    share = 0.5 if crossing_j < 0.0 else gives
     v = exchanged_velocity(share, goes_on, v_i, v_j, grad_v_i, grad_v_j, x_ij)
     return F_ij * h, F_ij * v
 
@@ -239,12 +239,15 @@ class Transport:
         """
         block = flow.block
         assert isinstance(block, PassingBlock)
-        self._work_on(block)
+        self._work_on(flow, block, is_box=kinds.is_box)
         fields = {"v": self.v, "w": ride.velocity}
         self.backend.pointwise(passing_velocity, fields, self._passing)
         # pools: melt that nothing separates
         flows = self.backend.head(kinds.fluid, block.count)
-        self._equation.set_operator(block.without_ghosts(), block.weights, flows, self._V)
+        self._equation.set_operator(
+            *(block.without_ghosts(), block.weights, flows, self._V),
+            version=(block.placings, kinds.changes),
+        )
         # F*, what it leaves in each particle, and the slopes of h and v
         self.find_flux(block)
         self.find_balance(block, kinds, ride.growth)
@@ -256,20 +259,14 @@ class Transport:
         self.exchange(block, kinds, ride.growth, step, 0.5 * step, share)
         self.backend.copy(self.v, self._carried)
 
-    def _work_on(self, block: PassingBlock) -> None:
-        """Work vectors for a block and its pairs."""
+    def _work_on(self, flow: Flow, block: PassingBlock, *, is_box: bool) -> None:
+        """Work vectors for a block and its pairs; in a box both equations have one set of
+        unknowns."""
         backend, count, d = self.backend, block.count, self.v.shape[0]
         if block is not self._block:
             self._block, self._V = block, backend.head(self.volume, count)
-            self._equation = PressureEquation(
-                backend,
-                count,
-                block.layers.moving_support,
-                block.spacing,
-                tolerance=TOLERANCE,
-                period=block.conditions.periods,
-                is_even=False,
-            )
+            unknowns = flow.projection.unknowns if is_box else unknowns_of(block)
+            self._equation = PressureEquation(backend, unknowns, tolerance=TOLERANCE, is_even=False)
             self._gathered = backend.zeros(count)
             self._phi, self._phi_old = (backend.head(phi, count) for phi in self._potentials)
             self._grad_h, self._grad_v = backend.zeros((d, count)), backend.zeros((d, d, count))
@@ -299,7 +296,7 @@ class Transport:
         if block.rows_across is None:
             return
         fields = pools | {"g_ij": block.weights, "flux_ij": flux, "source": block.ghosts.source}
-        fields |= {"tangent": block.tangents}
+        fields |= {"crossing": block.crossing}
         tables: Constants = {"u": self._passing, "place": block.ghosts.place}
         tables |= {"distance": block.ghosts.surface.distance}
         rows = block.rows_across
@@ -351,7 +348,7 @@ class Transport:
         fields |= {"grad_h": block.gather(self._grad_h), "y": block.unfolded}
         fields |= {"grad_v": ghosts.extend_tensor(self._grad_v)}
         fields |= {"flux_ij": self.flux, "g_ij": block.weights, "phi": block.gather(self._phi)}
-        fields |= {"mirrored": block.mirrored, "tangent": block.tangents, "volume": self.volume}
+        fields |= {"crossing": block.crossing, "volume": self.volume}
         fields |= {"growth": growth, "measure": block.measure}
         self.backend.pair_sum(
             exchange_terms,

@@ -37,11 +37,11 @@ def first_residual(total, v, V, v_star, g_sum, s):
     return r, z, dot(r, z), dot(r, r)
 
 
-def resisted(total, v_star, v, V, s):
-    """v* less what the hoop stress takes in the step, and V + s K of each component; `total` is
-    K."""
-    k = vector(s * total, 0.0 * total)
-    return v_star - 1.0 / V * k * v, V + k
+def resisted(total_0, total_1, v_star, v, V, s):
+    """Diagonal of the pairs, v* less what the hoop stress takes in the step, and V + s K of each
+    component; K is the second sum."""
+    k = vector(s * total_1, 0.0 * total_1)
+    return total_0, v_star - 1.0 / V * k * v, V + k
 
 
 def matrix_product(total, d, V, s):
@@ -90,7 +90,7 @@ class ViscousStep:
         self._g_sum = backend.zeros((*terms.diagonal_shape, count))
         # V, of rings with what their hoop stress resists
         self._inertia = volume
-        if terms.resistance is not None:
+        if terms.has_hoop_stress:
             self._inertia = backend.zeros((dimension, count))
         self.velocity = backend.zeros((dimension, count))
         self._changes = backend.zeros((dimension, 0))
@@ -114,7 +114,8 @@ class ViscousStep:
             backend.pair_sum(
                 terms.momentum, pairs, fields, star, rows=rows, finish=predict, nu=nu, step=step
             )
-            self._resist(block, v, rows, self.nu * step)
+            if terms.has_hoop_stress:
+                self._find_diagonal(block, v, rows, self.nu * step)
             backend.copy(self._star, v)
             return 0
         s = self.nu * step
@@ -134,14 +135,16 @@ class ViscousStep:
         """Weights and volumes that every sum reads."""
         return {"g_ij": block.viscous_weights, "V": self.volume, **block.ring_fields}
 
-    def _resist(self, block: Block, v: Array, rows: Rows, s: float) -> None:
-        """Let the hoop stress of rings act on v*, at the velocities (d, n) [m/s]."""
-        resistance = self.terms.resistance
-        if resistance is None:
-            return
+    def _find_diagonal(self, block: Block, v: Array, rows: Rows, s: float) -> None:
+        """Diagonal of the pairs; the hoop stress of rings acts on v*, at the velocities (d, n)
+        [m/s]."""
+        sum_of, pairs, shares = self.backend.pair_sum, block.pairs, self.terms.shares
         fields = self._fields(block) | {"v_star": self._star, "v": v}
-        out = (self._star, self._inertia)
-        self.backend.pair_sum(resistance, block.pairs, fields, out, rows=rows, finish=resisted, s=s)
+        if self.terms.has_hoop_stress:
+            out = (self._g_sum, self._star, self._inertia)
+            sum_of(shares, pairs, fields, out, rows=rows, finish=resisted, s=s)
+        else:
+            sum_of(shares, pairs, fields, self._g_sum, rows=rows)
 
     @graph
     def find_first_residual(
@@ -153,10 +156,9 @@ class ViscousStep:
         backend.fill(d, 0.0)  # which ghosts read beyond the rows
         self._changes = backend.zeros((extended.shape[0], block.ghosts.size))
 
-        # sum_j g_ij and v* = v + dt b
-        backend.pair_sum(terms.diagonal, block.pairs, fields, self._g_sum, rows=rows)
+        # v* = v + dt b and sum_j g_ij
         backend.pointwise(forced, {"v": v, "b": b}, self._star, step=step)
-        self._resist(block, v, rows, s)
+        self._find_diagonal(block, v, rows, s)
 
         # r = V v* - A v, z = r / diagonal
         given = fields | {"v": extended, "b": b, "v_star": self._star, "g_sum": self._g_sum}

@@ -15,8 +15,11 @@ from lasersph.solvers.melt_pool.particle_kinds import (
 
 
 def test_what_flows():
-    """Only what is molten completely; mush is wall; in a box everything."""
-    assert [is_fluid(f_m) for f_m in (1.0, 0.999, 0.0)] == [1.0, 0.0, 0.0]
+    """Only what is molten completely; mush is wall; and what flows or rests since."""
+    assert is_fluid(1.0, 1.0) == (1.0, 1.0, 0.0)
+    assert is_fluid(1.0, 0.0) == (1.0, 1.0, 1.0)
+    assert is_fluid(0.999, 1.0) == (0.0, 0.0, 1.0)
+    assert is_fluid(0.0, 0.0) == (0.0, 0.0, 0.0)
 
 
 def test_fluid_neighbors_by_hand():

@@ -5,6 +5,7 @@ import pytest
 from scattered_pairs import BOTTOM, LEFT, RIGHT, TOP, scattered
 
 from lasersph import compute
+from lasersph.linear_solvers.unknowns import Unknowns
 from lasersph.solvers.melt_pool.pressure_equation import PressureEquation
 
 
@@ -12,8 +13,8 @@ def equation(backend, pairs, *, mask=None, coefficient=None, tolerance=1e-10, ma
     """Equation of the pairs with its operator set."""
     mask = np.ones(pairs.count) if mask is None else mask
     solver = PressureEquation(
-        backend, pairs.count, pairs.support, pairs.spacing, tolerance=tolerance,
-        max_iterations=max_iterations, period=pairs.period,
+        backend, Unknowns(backend, pairs.count, pairs.support, pairs.spacing, pairs.period),
+        tolerance=tolerance, max_iterations=max_iterations,
     )  # fmt: skip
     mask, volume = pairs.arrays(backend, mask, pairs.volume)
     coefficient = None if coefficient is None else backend.asarray(coefficient)
@@ -75,7 +76,9 @@ def manufactured_error(rows, jitter, is_simple):
     flux = np.bincount(
         i, np.where(below, g * 2.0 * (-1.0 - pairs.partner[1]) * slope, 0.0), minlength=n
     )
-    solver = PressureEquation(backend, n, pairs.support, pairs.spacing, tolerance=1e-8)
+    solver = PressureEquation(
+        backend, Unknowns(backend, n, pairs.support, pairs.spacing), tolerance=1e-8
+    )
     one, volume, g, coefficient = pairs.arrays(backend, np.ones(n), pairs.volume, g, coefficient)
     solver.set_operator(pairs.neighbors(backend), g, one, volume, coefficient)
     outcome, p = solved(backend, solver, pairs.volume * laplacian(x, z), value=value, flux=flux)
@@ -212,7 +215,10 @@ def test_particle_without_weights():
     pairs = scattered(12)
     g = np.where((pairs.i == 50) | (pairs.j == 50), 0.0, pairs.g)
     solver = PressureEquation(
-        backend, pairs.count, pairs.support, pairs.spacing, tolerance=1e-8, max_iterations=40
+        backend,
+        Unknowns(backend, pairs.count, pairs.support, pairs.spacing),
+        tolerance=1e-8,
+        max_iterations=40,
     )
     g, one, volume = pairs.arrays(backend, g, np.ones(pairs.count), pairs.volume)
     solver.set_operator(pairs.neighbors(backend), g, one, volume)

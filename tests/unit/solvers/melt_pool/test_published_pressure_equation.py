@@ -5,6 +5,7 @@ import pytest
 from scattered_pairs import RATIO
 
 from lasersph import compute
+from lasersph.linear_solvers.unknowns import Unknowns
 from lasersph.particles.kinds import DUMMY, EDGE, FLUID, INTERIOR
 from lasersph.particles.neighbor_lists import find_neighbors
 from lasersph.particles.support import arithmetic
@@ -158,7 +159,9 @@ def amplitudes(backend, radius):
     published, pressure = backend.zeros(pool.count), backend.zeros(pool.count)
     pool.solver(tolerance=1e-6).solve(b, published)
     is_row = (pool.kind == FLUID) | (pool.kind == EDGE)
-    symmetric = PressureEquation(backend, pool.count, RATIO * SPACING, SPACING, tolerance=1e-6)
+    symmetric = PressureEquation(
+        backend, Unknowns(backend, pool.count, RATIO * SPACING, SPACING), tolerance=1e-6
+    )
     mask, volume = backend.asarray(is_row.astype(float)), backend.asarray(pool.volume)
     folded = pool.neighbors.without_ghosts(backend, backend.asarray(pool.source, "index"))
     symmetric.set_operator(folded, pool.weights, mask, volume)

@@ -56,7 +56,7 @@ def test_weights_beside_a_steep_axis_are_symmetric():
     solver.time_step_limits()
     solver.advect(1e-12)
     block = solver.flow.block
-    place, image = (np.asarray(one) for one in (block.pairs.position, block.tangents))
+    place, image = (np.asarray(one) for one in (block.pairs.position, block.crossing))
     beyond = np.asarray(block.beyond_axis)
     assert np.count_nonzero((place[0] < 0.0) & (image == 1.0) & (beyond == 0.0)) > 3
     g = matrix_of(block.backend, block.without_ghosts(), block.weights, block.count)

@@ -115,22 +115,22 @@ def test_a_linear_velocity_is_that_of_the_middle(gives):
     assert exchanged_velocity(gives, 1.0, STILL, 2.0 * UP, even, even, WAY) == pytest.approx(UP)
 
 
-def both_sides(mirrored=0.0, tangent=0.0):
+def both_sides(crossing=0.0):
     """h and v times flux of a pair, seen from i and from j."""
     T = np.array([[0.5, 0.1], [0.2, -0.5]])
     one, other = (1.0, np.array([1.0, 0.5]), np.array([0.3, 0.7])), (2.0, UP, np.array([0.1, 0.9]))
-    way, marks = np.array([0.4, -1.0]), (mirrored, tangent)
+    way = np.array([0.4, -1.0])
     (h_i, v_i, g_i), (h_j, v_j, g_j) = one, other
     closed, back = (2.0, 3.0, 1, 1, 1.0, 1.5), (-2.0, 3.0, 1, 1, 1.5, 1.0)
     there = (h_i, h_j, h_i, h_j, v_i, v_j, g_i, g_j, T, 2 * T, way, way, STILL)
     here = (h_j, h_i, h_j, h_i, v_j, v_i, g_j, g_i, 2 * T, T, -way, STILL, way)
-    return exchange_terms(*closed, *there, *marks), exchange_terms(*back, *here, *marks)
+    return exchange_terms(*closed, *there, crossing), exchange_terms(*back, *here, crossing)
 
 
-@pytest.mark.parametrize("marks", [{}, {"mirrored": 1.0}, {"tangent": 1.0}])
-def test_both_sides_of_a_pair_exchange_the_same(marks):
+@pytest.mark.parametrize("crossing", [0.0, -1.0, 1.0])
+def test_both_sides_of_a_pair_exchange_the_same(crossing):
     """Seen from j the flux has the other sign, and the values are those of i."""
-    there, back = both_sides(**marks)
+    there, back = both_sides(crossing)
     assert there[0] == -back[0]
     assert there[1] == pytest.approx(-back[1], abs=0.0)
 
@@ -138,7 +138,7 @@ def test_both_sides_of_a_pair_exchange_the_same(marks):
 def test_exchange_is_by_the_closed_flux():
     """2 m^3/s less a weight of three times a rise of one half is a half: of h and v of the giver
     beyond a surface that bends."""
-    there, _ = both_sides(tangent=1.0)
+    there, _ = both_sides(crossing=1.0)
     assert there[0] == 0.5 * 1.0
     assert there[1] == pytest.approx(0.5 * np.array([1.0, 0.5]))
 
@@ -173,7 +173,7 @@ def test_what_the_flow_carries_in_half_a_step():
 
 def test_pairs_across_planes_exchange_the_mean_velocity():
     """The middle of a profile that bends at a wall."""
-    there, _ = both_sides(mirrored=1.0)
+    there, _ = both_sides(crossing=-1.0)
     assert there[1] == pytest.approx(0.5 * np.array([0.5, 0.75]))
 
 

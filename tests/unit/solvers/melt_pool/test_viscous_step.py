@@ -244,8 +244,10 @@ def test_implicit_between_two_particles():
 
 def test_hoop_stress_resists():
     """V = 2, s = 4, K = 1/8: a fourth of the radial component is lost in a step, and V + s K there
-    is 2.5."""
-    v_star, inertia = resisted(0.125, np.array([4.0, 4.0]), np.array([8.0, 8.0]), 2.0, 4.0)
+    is 2.5; the diagonal is that of the pairs."""
+    totals = np.array([5.0, 3.0]), 0.125
+    taken, v_star, inertia = resisted(*totals, np.array([4.0, 4.0]), np.array([8.0, 8.0]), 2.0, 4.0)
+    assert taken.tolist() == [5.0, 3.0]
     assert v_star.tolist() == [4.0 - 0.25 * 8.0, 4.0]
     assert inertia.tolist() == [2.5, 2.0]
 
