@@ -19,7 +19,7 @@ COLUMNS = 12
 CAP = Cap(3e-7, 1.5e-6)
 
 
-def bath(heights):
+def bath(heights, columns=COLUMNS):
     """Solver of a quarter of a box, 0.6 um deep, that begins with heights of x and y, also along
     its walls."""
     place = np.linspace(0.0, 1.05 * HALF, 106)
@@ -35,7 +35,7 @@ def bath(heights):
         },
         "initial_temperature": 1000.0,
         "domain": {"depth": 6e-7, "width": 2.0 * HALF, "breadth": 2.0 * HALF, "extent": "quarter"},
-        "particles": {"spacing": HALF / COLUMNS, "arrangement": "uniform"},
+        "particles": {"spacing": HALF / columns, "arrangement": "uniform"},
         "solver": {
             "kind": "melt-pool", "dimensions": 3, "gravity": 0.0, "marangoni": False, "flow": flow,
         },
@@ -73,15 +73,30 @@ def membrane(x, y):
     return np.where(inside, 0.15 * HALF * found / found[0], 0.0)
 
 
-def test_corners_of_level_walls():
-    """p of a square of side 2 b by its volume within 1 %, 0.4987 gamma/b at 0.28818 b^3, and the
-    liquid comes to rest: mu u/gamma = 1.8e-3 in the corner after 15 ns, 5e-4 after 45 ns. Short
-    waves that are damped there as elsewhere feed a flow of 5.7e-3 that stays."""
-    solver = bath(membrane)
+def square_after(end, columns=COLUMNS):
+    """p of a square of side 2 b over that of its volume, 0.4987 gamma/b at 0.28818 b^3, and the
+    largest mu u/gamma, at a time [s]."""
+    solver = bath(membrane, columns)
     line = solver.domain.surface.line
     volume = 4.0 * line.height.sum() * np.prod(line.widths)
-    go(solver, 1.5e-8, step=1e-9)
+    go(solver, end, step=1e-9)
     wanted = 0.4987 * TENSION / HALF * volume / (0.28818 * HALF**3)
-    assert np.mean(host(solver, "pressure")) == pytest.approx(wanted, rel=0.01)
     speed = np.linalg.norm(host(solver, "velocity"), axis=0).max()
-    assert VISCOSITY * speed / TENSION < 3e-3
+    return np.mean(host(solver, "pressure")) / wanted, VISCOSITY * speed / TENSION
+
+
+def test_corners_of_level_walls():
+    """p within 1 %, and the liquid comes to rest: mu u/gamma = 1.8e-3 in the corner after 15 ns,
+    5e-4 after 45 ns. Short waves that are damped there as elsewhere feed a flow of 5.7e-3 that
+    stays."""
+    pressure, speed = square_after(1.5e-8)
+    assert pressure == pytest.approx(1.0, rel=0.01)
+    assert speed < 3e-3
+
+
+@pytest.mark.slow
+def test_square_comes_to_rest():
+    """With columns of 50 nm: mu u/gamma below 1e-4 after 100 ns, 7.6e-5 came out; p 0.3 % low."""
+    pressure, speed = square_after(1e-7, columns=20)
+    assert pressure == pytest.approx(1.0, rel=0.01)
+    assert speed < 1e-4

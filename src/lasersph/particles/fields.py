@@ -141,6 +141,12 @@ FLOW = _table(
 ABLATION = _table(
     Field("density", "rho", "kg/m^3", "density", is_kept=True),
     Field("acting_volume", "V_a", "m^d", "volume that acts on neighbors"),
+    Field(
+        "conducting_volume",
+        "V_k",
+        "m^d (W/(m K))^(1/2)",
+        "volume times the root of a conductivity that is one number",
+    ),
     Field("vapor_pressure", "p_v", "Pa", "vapor pressure at leaving", is_kept=True),
     Field("leaving_time", "left_at", "s", "time of leaving, 0 before", is_kept=True),
     Field("conducts", "conducts", "1", "1, or 0 of walls that let no heat pass"),

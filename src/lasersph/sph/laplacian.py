@@ -83,9 +83,4 @@ def flow(g_ij, P_i, P_j):
 
 def harmonic_flow(g_ij, T_i, T_j, k_i, k_j):
     """Heat flowing from j into i [W] with the harmonic mean of k, from assembled weights."""
-    return g_ij * harmonic_mean(k_i, k_j) * (T_j - T_i)
-
-
-def harmonic_mean(k_i, k_j):
-    """Harmonic mean of two conductivities [W/(m K)]; 0 where one of both is."""
-    return 2.0 * k_i * k_j / max(k_i + k_j, SMALLEST_CONDUCTIVITY)
+    return g_ij * 2.0 * k_i * k_j / max(k_i + k_j, SMALLEST_CONDUCTIVITY) * (T_j - T_i)

@@ -18,7 +18,48 @@ from lasersph.physics.artificial_viscosity import alpha_between, closing_speed, 
 from lasersph.physics.continuity import density_rate
 from lasersph.physics.losses import surface_loss
 from lasersph.physics.momentum import pair_acceleration
-from lasersph.sph.laplacian import conduction, harmonic_mean, weight
+from lasersph.sph.laplacian import conduction, flow, weight
+
+
+def motion_terms(
+    v_i,
+    v_j,
+    rho_i,
+    rho_j,
+    P_i,
+    P_j,
+    V_a_j,
+    f_m_i,
+    f_m_j,
+    x_ij,
+    r_ij,
+    dW_ij,
+    h_s,
+    c_0,
+    alpha_solid,
+    alpha_liquid,
+):
+    """Terms of d rho/dt [kg/(m^d s)] and dv/dt [m/s^2], and mu_ij^4 [m^4/s^4].
+
+    The fourth root of the sum of the last bounds the largest |mu_ij| from above, with which
+    [Alshaer2017, eq. (31)] limits the step; a maximum would keep the loop from being vectorized.
+    Neighbors beyond the support count for nothing, so that steps do not depend on the skin.
+
+    Args:
+        v: velocity [m/s]. rho: density [kg/m^d]. P: pressure [Pa]. V_a: acting volume [m^d].
+        f_m: melt fraction [1]. x_ij: x_i - x_j [m]. r_ij: distance [m]. dW_ij: dW/dr [1/m^(d+1)].
+        h_s: smoothing length [m]. c_0: [m/s]. alpha_solid, alpha_liquid: artificial viscosity.
+    """
+    v_ij = v_i - v_j
+    mu_ij = closing_speed(v_ij, x_ij, h_s)
+    alpha = alpha_between(f_m_i, f_m_j, alpha_solid, alpha_liquid)
+    Pi_ij = viscous_term(mu_ij, alpha, c_0, rho_i, rho_j)
+    acts = 1.0 if V_a_j * dW_ij < 0.0 else 0.0
+    return (
+        density_rate(rho_i, V_a_j, v_ij, x_ij, r_ij, dW_ij),
+        pair_acceleration(V_a_j, P_i, P_j, rho_i, rho_j, Pi_ij, x_ij, r_ij, dW_ij),
+        acts * mu_ij**4,
+    )
 
 
 def pair_rates(
@@ -46,30 +87,44 @@ def pair_rates(
     alpha_liquid,
     factor,
 ):
-    """Terms of d rho/dt [kg/(m^d s)], dv/dt [m/s^2], heat [W], and mu_ij^4 [m^4/s^4].
+    """`motion_terms` with the heat [W] in the place before the last; arguments of both, and of
+    `pair_heat`."""
+    rho_rate, a, fourth = motion_terms(
+        v_i, v_j, rho_i, rho_j, P_i, P_j, V_a_j, f_m_i, f_m_j, x_ij, r_ij, dW_ij,
+        h_s, c_0, alpha_solid, alpha_liquid,
+    )  # fmt: skip
+    return rho_rate, a, pair_heat(T_i, T_j, k_i, k_j, V_i, V_j, r_ij, dW_ij, factor), fourth
 
-    The fourth root of the sum of the last bounds the largest |mu_ij| from above, with which
-    [Alshaer2017, eq. (31)] limits the step; a maximum would keep the loop from being vectorized.
-    Neighbors beyond the support count for nothing, so that steps do not depend on the skin.
 
-    Args:
-        v: velocity [m/s]. rho: density [kg/m^d]. P: pressure [Pa]. V: volume [m^d].
-        V_a: acting volume [m^d]. T: temperature [K]. k: conductivity [W/(m K)], 0 of what
-        conducts nothing. f_m: melt fraction [1]. x_ij: x_i - x_j [m]. r_ij: distance [m].
-        dW_ij: dW/dr [1/m^(d+1)]. h_s: smoothing length [m]. c_0: [m/s]. alpha_solid,
-        alpha_liquid: artificial viscosity. factor: of the conduction weights [1].
-    """
-    v_ij = v_i - v_j
-    mu_ij = closing_speed(v_ij, x_ij, h_s)
-    alpha = alpha_between(f_m_i, f_m_j, alpha_solid, alpha_liquid)
-    Pi_ij = viscous_term(mu_ij, alpha, c_0, rho_i, rho_j)
-    acts = 1.0 if V_a_j * dW_ij < 0.0 else 0.0
-    return (
-        density_rate(rho_i, V_a_j, v_ij, x_ij, r_ij, dW_ij),
-        pair_acceleration(V_a_j, P_i, P_j, rho_i, rho_j, Pi_ij, x_ij, r_ij, dW_ij),
-        factor * conduction(T_i, T_j, k_i, k_j, V_i, V_j, r_ij, dW_ij),
-        acts * mu_ij**4,
-    )
+def even_pair_rates(
+    v_i,
+    v_j,
+    rho_i,
+    rho_j,
+    P_i,
+    P_j,
+    V_a_j,
+    V_k_i,
+    V_k_j,
+    T_i,
+    T_j,
+    f_m_i,
+    f_m_j,
+    x_ij,
+    r_ij,
+    dW_ij,
+    h_s,
+    c_0,
+    alpha_solid,
+    alpha_liquid,
+    factor,
+):
+    """`pair_rates` where the conductivity is one number, see `even_pair_heat`."""
+    rho_rate, a, fourth = motion_terms(
+        v_i, v_j, rho_i, rho_j, P_i, P_j, V_a_j, f_m_i, f_m_j, x_ij, r_ij, dW_ij,
+        h_s, c_0, alpha_solid, alpha_liquid,
+    )  # fmt: skip
+    return rho_rate, a, even_pair_heat(T_i, T_j, V_k_i, V_k_j, r_ij, dW_ij, factor), fourth
 
 
 def particle_rates(total_0, total_1, total_2, total_3, kind, m, T, E, A, step, up, g, surroundings):
@@ -104,23 +159,31 @@ def heat_rates(total, kind, m, T, E, A, step, surroundings):
 
 
 def pair_heat(T_i, T_j, k_i, k_j, V_i, V_j, r_ij, dW_ij, factor):
-    """Heat from a neighbor alone [W], see `laplacian.conduction`; factor: of the weights [1]."""
+    """Heat from a neighbor [W], see `laplacian.conduction`.
+
+    Args:
+        V: volume [m^d]. T: temperature [K]. k: conductivity [W/(m K)], 0 of what conducts nothing.
+        factor: of the conduction weights [1].
+    """
     return factor * conduction(T_i, T_j, k_i, k_j, V_i, V_j, r_ij, dW_ij)
 
 
+def even_pair_heat(T_i, T_j, V_k_i, V_k_j, r_ij, dW_ij, factor):
+    """`pair_heat` where the conductivity is one number, which is the mean of any two: less is read
+    of a neighbor. V_k: `conducting_volume`."""
+    return flow(pair_weight(V_k_i, V_k_j, r_ij, dW_ij, factor), T_i, T_j)
+
+
+def conducting_volume(V, k):
+    """k^(1/2) V [m^d (W/(m K))^(1/2)]: two of them times each other have the conductivity of a
+    pair, none where one conducts nothing."""
+    return k**0.5 * V
+
+
 def pair_weight(V_i, V_j, r_ij, dW_ij, factor):
-    """Conduction weight of a pair that stays where it is [m^(d-2)], see `laplacian.weight`."""
+    """Conduction weight of a pair that stays where it is [m^(d-2)], see `laplacian.weight`; of
+    conducting volumes with the conductivity [W/K]."""
     return factor * weight(V_i, V_j, r_ij, dW_ij)
-
-
-def pair_conductance(V_i, V_j, k_i, k_j, r_ij, dW_ij, factor):
-    """`pair_weight` times the harmonic mean of conductivities that stay as they are [W/K]."""
-    return pair_weight(V_i, V_j, r_ij, dW_ij, factor) * harmonic_mean(k_i, k_j)
-
-
-def conducted(g_ij, T_i, T_j):
-    """Heat flowing from j into i [W], g_ij by `pair_conductance`."""
-    return g_ij * (T_j - T_i)
 
 
 def advance(x, v, rho, h, kind, v_rate, a, drho, dh, dt):

@@ -16,6 +16,7 @@ from lasersph.particles.kinds import INTERIOR, LEAVING, WALL
 from lasersph.particles.particles import Particles
 from lasersph.physics.equation_of_state import condensed_pressure
 from lasersph.physics.phase_change import state
+from lasersph.solvers.ablation.equations import conducting_volume
 from lasersph.solvers.ablation.geometry import Geometry, InitialState
 
 HOTTEST = 5e4
@@ -111,12 +112,13 @@ class ParticleState:
         size = (backend, self.count, geometry.dimension)
 
         # levels of a step: its start, with all fields, and its middle, with what changes
-        self.now = Particles(*size, (*LEVEL, *OTHERS), capacity=total)
-        self.half = Particles(*size, LEVEL, capacity=total)
-
-        # tables of the caloric curve and of k(T), constants of the equation of state
         T, k = material.table("conductivity", 1.0, HOTTEST)
         self.conducts_alike = float(np.ptp(k)) == 0.0
+        level = (*LEVEL, *(["conducting_volume"] if self.conducts_alike else []))
+        self.now = Particles(*size, (*level, *OTHERS), capacity=total)
+        self.half = Particles(*size, level, capacity=total)
+
+        # tables of the caloric curve and of k(T), constants of the equation of state
         nodes = curve.tables | {"k_T": T, "k_nodes": k}
         self._tables = {name: backend.asarray(values) for name, values in nodes.items()} | {
             "melts_at": melts_at,
@@ -152,6 +154,9 @@ class ParticleState:
         out = (*(level[name] for name in names), self.now["opaque"])
         fields = self.fields(level)
         self.backend.pointwise(evaluate_state, fields, out, rows=rows, **self._tables)
+        if self.conducts_alike:
+            out = level["conducting_volume"]
+            self.backend.pointwise(conducting_volume, fields, out, rows=rows)
 
     def add_to_half(self, rows: Rows | None) -> None:
         """Let the middle of the step know particles that take part from now on."""

@@ -23,10 +23,10 @@ from lasersph.solvers.ablation.equations import (
     advance,
     advance_enthalpy,
     advance_vapor,
-    conducted,
     energy_gain,
+    even_pair_heat,
+    even_pair_rates,
     heat_rates,
-    pair_conductance,
     pair_heat,
     pair_rates,
     pair_weight,
@@ -37,7 +37,7 @@ from lasersph.solvers.ablation.parameters import Parameters
 from lasersph.solvers.ablation.particle_state import ParticleState
 from lasersph.solvers.ablation.state import AblationState
 from lasersph.solvers.step_control import NotConverged
-from lasersph.sph.laplacian import harmonic_flow
+from lasersph.sph.laplacian import flow, harmonic_flow
 from lasersph.surface.surface import upward
 
 LEAST_DENSITY = 0.01
@@ -101,19 +101,21 @@ class Rates:
             particles, pairs, factor = self.particles, self.pairs.now, self.parameters.weight_factor
             backend, fields = particles.backend, particles.fields()
             self.weights = backend.zeros(pairs.neighbor.shape[0])
-            weight = pair_conductance if particles.conducts_alike else pair_weight
-            backend.pair_values(weight, pairs, fields, self.weights, rows=rows, factor=factor)
+            if particles.conducts_alike:
+                fields["V"] = fields["V_k"]
+            backend.pair_values(pair_weight, pairs, fields, self.weights, rows=rows, factor=factor)
 
     def evaluate(self, level: Particles, step: float, rows: Rows | None) -> float:
         """Find the rates at a level, and what limits the next step; returns the heat lost [W]."""
         particles, state, backend = self.particles, self.state, self.particles.backend
         pairs = self.pairs.now if level is particles.now else self.pairs.half
+        is_even = particles.conducts_alike
         fields = particles.fields(level) | {"A": self.area}
 
         # all three equations in one pass over the pairs
         if self.moving is Moving.ALL:
             lost, square, fourth = backend.pair_sum(
-                pair_rates,
+                even_pair_rates if is_even else pair_rates,
                 pairs,
                 fields,
                 (self._drho, self._a, self._dh, None, None, None),
@@ -129,11 +131,13 @@ class Rates:
             return lost
 
         # heat alone, between particles that part or by weights of pairs at rest
-        term, constants = pair_heat, {"factor": self.parameters.weight_factor}
+        term = even_pair_heat if is_even else pair_heat
+        constants = {"factor": self.parameters.weight_factor}
         if self.moving is Moving.NOTHING:
             assert self.weights is not None
-            term, constants = conducted if particles.conducts_alike else harmonic_flow, {}
+            term, constants = flow if is_even else harmonic_flow, {}
             pairs, fields["g_ij"] = self.pairs.now, self.weights
+            fields["P"] = fields["T"]  # with the conductivity in the weights that of heat, too
         (lost,) = backend.pair_sum(
             term,
             pairs,

@@ -6,6 +6,8 @@ import pytest
 from lasersph.particles.kinds import EJECTED, INTERIOR, LEAVING, WALL
 from lasersph.solvers.ablation.equations import (
     advance,
+    conducting_volume,
+    even_pair_rates,
     heat_rates,
     pair_rates,
     pair_weight,
@@ -65,6 +67,20 @@ def test_listed_but_beyond_the_support():
 def test_two_things_that_conduct_nothing():
     """0 / 0 is no heat, not NaN."""
     assert pair_rates(**PAIR | {"k_i": 0.0, "k_j": 0.0}, **FLOW)[2] == 0.0
+
+
+@pytest.mark.parametrize("k_j", [5.0, 0.0])
+def test_one_conductivity(k_j):
+    """The rates of a pair where all has one conductivity, or conducts nothing."""
+    pair = PAIR | {"k_j": k_j}
+    even = {name: value for name, value in pair.items() if name[:2] not in ("k_", "V_")}
+    even |= {"V_a_j": pair["V_a_j"]}
+    even |= {f"V_k_{one}": conducting_volume(pair[f"V_{one}"], pair[f"k_{one}"]) for one in "ij"}
+    drho, a, q, fourth = even_pair_rates(**even, **FLOW)
+    wanted = pair_rates(**pair, **FLOW)
+    assert (drho, a.tolist(), fourth) == (wanted[0], wanted[1].tolist(), wanted[3])
+    assert q == pytest.approx(wanted[2], rel=1e-14)
+    assert (q == 0.0) == (k_j == 0.0)
 
 
 def particle(kind, **changes):

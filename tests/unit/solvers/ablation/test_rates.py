@@ -13,6 +13,7 @@ from lasersph.solvers.step_control import binding_limit
 
 PUBLISHED = ("particles.spacing=0.2 um", "domain.depth=6 um", "solver.ejection.model=published",
              "solver.ejection.preset=timeline", "time.end=2 ns")  # fmt: skip
+OWN = ("particles.spacing=0.2 um", "domain.depth=6 um", "time.end=8 ns")
 
 
 def test_position_and_enthalpy():
@@ -32,17 +33,37 @@ def test_heat_of_a_pair():
 
 def test_same_as_with_all_motion():
     """Where no force acts on what is condensed, the general step gives the same, to rounding."""
+
+    def let_all_move(solver):
+        solver._what_moves = lambda *_: Moving.ALL
+
+    refuse_difference(PUBLISHED, let_all_move)
+
+
+@pytest.mark.parametrize("settings", [PUBLISHED, OWN])
+def test_same_as_with_conductivities_that_differ(settings):
+    """Aluminum of one conductivity: the rates of any metal give the same, to rounding."""
+
+    def let_conductivities_differ(solver):
+        assert solver.body.conducts_alike
+        solver.body.conducts_alike = False
+
+    refuse_difference(settings, let_conductivities_differ)
+
+
+def refuse_difference(settings, change):
+    """Assert that a run is the same with a solver that is changed."""
     found = []
-    for is_general in (False, True):
-        case = load_case("ablation-depth", list(PUBLISHED))
+    for is_changed in (False, True):
+        case = load_case("ablation-depth", list(settings))
         solver = recipe_of(case).build(compute.cpu(threads=1))
-        if is_general:
-            solver._what_moves = lambda *_: Moving.ALL
+        if is_changed:
+            change(solver)
         while solver.state.time < case.time.end * (1.0 - 1e-12):
             solver.step(binding_limit(solver.time_step_limits())[1])
         found.append(solver)
-    quick, general = found
-    assert quick.state.ejecta.number == general.state.ejecta.number > 0
+    plain, changed = found
+    assert plain.state.ejecta.number == changed.state.ejecta.number > 0
     for name in ("temperature", "position"):
         values = [s.backend.to_host(s.particles[name]) for s in found]
         np.testing.assert_allclose(*values, rtol=1e-11, atol=1e-20)
