@@ -6,7 +6,7 @@
 `texture-dots-steel` without its files, by the lines of `MeltPool.step`; processor time of all
 threads counts, so that other work on the machine does not. What melt costs is given per flowing
 particle and step, what heat costs per particle and step. Lines that are indented are parts of the
-one above.
+one above. Of the time of heat the share is named that particles took which were still cold.
 """
 
 from __future__ import annotations
@@ -33,6 +33,8 @@ PARTS = {
 """Parts of a line."""
 OF_ALL = ("heat.conduct", "illuminate")
 """Lines that all particles are in."""
+COLD = 1.0
+"""Rise of the temperature up to which a particle counts as cold [K]."""
 ASKED = 10.0
 """Time of a flowing particle and step at most, with all of its pressure and viscosity [us]."""
 
@@ -66,13 +68,17 @@ def main() -> None:
     # a clock around the whole step as well: what no line has is the difference
     clocks = clocked(solver)
     step = clocks.around("step", solver.step)
-    flowing, steps, with_melt, melt_before = 0.0, 0, 0, 0.0
+    flowing, steps, with_melt, melt_before, cold = 0.0, 0, 0, 0.0, 0.0
+    temperature = solver.backend.host_view(solver.particles["temperature"])
+    coldest = float(temperature.min())
     while solver.state.time < end * (1.0 - 1e-12):
         limits = solver.time_step_limits() | {"end": end - solver.state.time}
         _, length, unclipped_step = choose_step(limits)
-        before = clocks.seconds["step"]
+        before, heat_before = clocks.seconds["step"], clocks.seconds["heat.conduct"]
         step(length, unclipped_step)
         steps += 1
+        share = float((temperature < coldest + COLD).mean())
+        cold += share * (clocks.seconds["heat.conduct"] - heat_before)
         if solver.fluid_count > 0.0:
             flowing, with_melt = flowing + solver.fluid_count, with_melt + 1
             melt_before += clocks.seconds["step"] - before
@@ -80,6 +86,7 @@ def main() -> None:
     total, particles = clocks.seconds["step"], solver.particle_count
     print(f"{particles} particles, {steps} steps, {with_melt} with melt: {total:.1f} s")
     print(f"steps with melt: {melt_before:.1f} s, {100.0 * melt_before / total:.0f} %")
+    print(f"heat of particles within {COLD:.0f} K of the start: {cold:.1f} s")
     for name in LINES:
         show(clocks, name, particles * steps if name in OF_ALL else flowing)
         for part in PARTS.get(name, ()):

@@ -96,6 +96,13 @@ class Backend:
         self.fill(array, 0)
         return array
 
+    def unset(self, shape: int | tuple[int, ...]) -> Array:
+        """Array of reals that a loop sets as a whole before any is read."""
+        recording = self.loops.recorder.recording
+        if recording is None:
+            return self.empty(shape, self.real)
+        return self.wrap(recording.make(shape, self.real, self._undefined))
+
     def capacity_for(self, count: int) -> int:
         """Elements to have memory for where an array of so many may grow."""
         mapped = MAPPED_GROWTH * count

@@ -12,10 +12,10 @@ of the same arrays; so nothing of Python runs between loops that take less time 
 Numbers are the parameters that are annotated `float`. Where the method would come to other arrays
 (`access_paths`), it is recorded anew.
 
-A method launches loops, makes arrays by `zeros`, copies or fills some, and calls graphs, which are
-then part of it. It reads nothing else that changes, neither elements of arrays nor attributes that
-are numbers, and sorts nothing. Its owner has the `backend`. Graphs are also the steps of
-`Backend.iterate`, which are bound without being run.
+A method launches loops, makes arrays (`zeros`, `unset`), copies or fills some, and calls graphs,
+which are then part of it. It reads nothing else that changes, neither elements of arrays nor
+attributes that are numbers, and sorts nothing. Its owner has the `backend`. Graphs are also the
+steps of `Backend.iterate`, which are bound without being run.
 
 The strict backend, and all within `checked_graphs`, run the method each time and refuse it where it
 does not launch what it did before.

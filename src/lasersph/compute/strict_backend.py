@@ -44,6 +44,12 @@ class StrictBackend(Backend):
             raise TypeError(f"{type(array).__name__} given; make it with backend.asarray()")
         return array._host
 
+    def unset(self, shape: int | tuple[int, ...]) -> Array:
+        """Array of NaN, which shows where an element is read that no loop has set."""
+        found = super().unset(shape)
+        self.unwrap(found)[...] = np.nan
+        return found
+
     def object_address(self, array: Array) -> int:
         """Address of the NumPy object behind the caller's array."""
         return id(self.unwrap(array))

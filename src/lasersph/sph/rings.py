@@ -16,9 +16,13 @@ first four columns differ from those beside them by several times.
 
 from __future__ import annotations
 
+from math import pi
+
 from lasersph.compute.vectors import dot, matvec, vector
 from lasersph.particles.extended_lattice import GHOSTS
 
+TURN = 2.0 * pi
+"""Length of a ring over its distance from the axis. Geometry: a whole turn."""
 REACH = GHOSTS
 """Layers above and below one with which its rings are evened. Geometry: supports reach no
 further."""
@@ -35,13 +39,14 @@ def ring_weight(g_ij, measure_i, measure_j):
     return 0.5 * (measure_i + measure_j) * g_ij
 
 
-def ring_weight_off_axis(g_ij, measure_i, measure_j, beyond_j):
-    """`ring_weight`, and 0 toward the image of a particle beyond the axis, where `beyond` is 1.
+def ring_weight_off_axis(g_ij, r_i, r_j):
+    """`ring_weight`, and 0 toward the image of a particle beyond the axis, whose r counts as less
+    than 0.
 
     Its place does not tell: across a steep surface the ghost of a particle near the axis may lie
     beyond that, and the particle itself sees the ghosts of others from where it is.
     """
-    return ring_weight(g_ij, measure_i, measure_j) if beyond_j == 0.0 else 0.0 * g_ij
+    return ring_weight(g_ij, TURN * r_i, TURN * r_j) if r_j > 0.0 else 0.0 * g_ij
 
 
 def evened_ring_weight(g_ij, layer_i, layer_j, ring_i, ring_j, has_none_j, additions, layers):
@@ -63,11 +68,11 @@ def evened_ring_weight(g_ij, layer_i, layer_j, ring_i, ring_j, has_none_j, addit
     return g_ij * max(1.0 + b_i + (1.0 - has_none_j) * b_j, 0.0)
 
 
-def ring_pair(g_ij, measure_i, measure_j, beyond_j, r_i, r_j, c_i, c_j):
+def ring_pair(g_ij, r_i, r_j, c_i, c_j):
     """Values of a pair of rings: its weight twice, of flow and of heat, `mean_share`, which is 0
     toward the image of a particle beyond the axis, and `hoop_share`."""
-    g = ring_weight_off_axis(g_ij, measure_i, measure_j, beyond_j)
-    share = mean_share(r_i, r_j, c_i) if beyond_j == 0.0 else 0.0 * g
+    g = ring_weight_off_axis(g_ij, r_i, r_j)
+    share = mean_share(r_i, r_j, c_i) if r_j > 0.0 else 0.0 * g
     return g, g, share, hoop_share(r_i, r_j, c_i, c_j)
 
 

@@ -141,3 +141,8 @@ def test_capacity():
     assert backend.capacity_for(100) == 200
     assert backend.capacity_for(2**19 - 1) == 2**20 - 2 and backend.capacity_for(2**19) == 2**22
     assert backend.capacity_for(2**23) == 2**26 and backend.capacity_for(2**24) == 9 * 2**21
+
+
+def test_unset_elements_show(strict):
+    """What no loop has set is no number, here; in a graph it is whatever the memory held."""
+    assert np.isnan(strict.to_host(strict.unset((2, 3)))).all()

@@ -21,8 +21,8 @@ INNER, OUTER = 1.0, 3.0
 def test_weight_is_that_of_the_mean_ring():
     """Lengths 2 and 6: twice four of a pair of weight two, none beyond the axis."""
     assert ring_weight(2.0, 2.0, 6.0) == 8.0
-    assert ring_weight_off_axis(2.0, 2.0, 6.0, 0.0) == 8.0
-    assert ring_weight_off_axis(2.0, 2.0, 2.0, 1.0) == 0.0
+    assert ring_weight_off_axis(2.0, INNER, OUTER) == pytest.approx(8.0 * np.pi)
+    assert ring_weight_off_axis(2.0, INNER, -INNER) == 0.0
 
 
 def force_of_pair(v_i, v_j, r_i, r_j, g=1.0):
@@ -63,9 +63,9 @@ def test_values_of_a_pair():
     """Its weight for flow and heat and the mean ring, 0 beyond the axis, and what u_j counts
     for."""
     r_and_c = (INNER, OUTER, 1.0 / INNER, 1.0 / OUTER)
-    found = ring_pair(2.0, 2.0, 6.0, 0.0, *r_and_c)
-    assert found == pytest.approx((8.0, 8.0, 2.0, 4.0 / 3.0))
-    assert ring_pair(2.0, 2.0, 6.0, 1.0, *r_and_c)[:3] == (0.0, 0.0, 0.0)
+    found = ring_pair(2.0, *r_and_c)
+    assert found == pytest.approx((8.0 * np.pi, 8.0 * np.pi, 2.0, 4.0 / 3.0))
+    assert ring_pair(2.0, INNER, -OUTER, *r_and_c[2:])[:3] == (0.0, 0.0, 0.0)
 
 
 def test_divergence_of_two_rings():

@@ -97,13 +97,13 @@ class GhostExtension:
 
     def _read(self, table: Array, place: Array) -> Array:
         """(..., M) values of a table at their places."""
-        out = self.backend.zeros((*table.shape[:-1], self.size))
+        out = self.backend.unset((*table.shape[:-1], self.size))
         self.backend.pointwise(element, {"place": place}, out, table=table)
         return out
 
     def _extend(self, function: Callable, tables: Constants, out: Array | None = None) -> Array:
         """Vectors (d, M) by a function of `ghost_fields`, into `out` where it is given."""
-        found = self.backend.zeros((self.dimension, self.size)) if out is None else out
+        found = self.backend.unset((self.dimension, self.size)) if out is None else out
         self.backend.pointwise(function, self.sources, found, **tables)
         return found
 
@@ -148,14 +148,14 @@ class GhostExtension:
 
     def extend_tensor(self, M: Array) -> Array:
         """Tensors (d, d, count) of the block on the block with ghosts."""
-        out = self.backend.zeros((self.dimension, self.dimension, self.size))
+        out = self.backend.unset((self.dimension, self.dimension, self.size))
         return self._extend(ghost_fields.ghost_tensor, {"M": M, **self._mirrors}, out)
 
     def extend_pressure(self, p: Array) -> Array:
         """(M,) pressure, mirrored at planes, and across a tangent carried on through p_b there."""
         tables: Constants = {"p": p, "p_b": self.surface.pressure}
         tables["crosses_surface"] = self._crosses_surface
-        return self._extend(ghost_fields.ghost_pressure, tables, self.backend.zeros(self.size))
+        return self._extend(ghost_fields.ghost_pressure, tables, self.backend.unset(self.size))
 
     def put_in_place(self, position: Array) -> None:
         """Set `place` from the positions of the particles (d, n) [m]."""

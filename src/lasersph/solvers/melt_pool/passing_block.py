@@ -12,7 +12,6 @@ from typing import Any
 import numpy as np
 
 from lasersph.compute.array_types import Array
-from lasersph.particles.ghosts import LOWER
 from lasersph.solvers.melt_pool.block import Block
 from lasersph.solvers.melt_pool.block_terms import either
 
@@ -26,30 +25,26 @@ class PassingBlock(Block):
     """Particles that melt passes between.
 
     Attributes:
-        measure: (M,) what a cell stands for: 2 pi r of rings [m], else 1 [1]; of ghosts that of
-            their sources. unfolded: (d, M) places, of images those of the sources along the axes
-            that are mirrored [m]. crossing: (M,) -1 for images beyond planes, 1 for the ghost of a
-            particle across the tangent of a surface that moves, 2 for that of its image beyond a
-            side, 0 for all others. beyond_axis: (M,) 1 for images beyond the axis of rings.
+        measure: (count,) what a cell stands for: 2 pi r of rings [m], else 1 [1]. unfolded: (d, M)
+            places, of images those of the sources along the axes that are mirrored [m]. crossing:
+            (M,) -1 for images beyond planes, 1 for the ghost of a particle across the tangent of a
+            surface that moves, 2 for that of its image beyond a side, 0 for all others.
     """
 
     def __init__(self, *args: Any, **options: Any) -> None:
         super().__init__(*args, **options)
         geometry, types = self.lattice.geometry, self.ghosts.particles.ghost_types
         position = self.lattice.position[:, : self.count]
-        self._lengths = self.backend.asarray(geometry.measure(position))
+        self.measure = self.backend.asarray(geometry.measure(position))
         beside = np.any(types.crossed[:-1] != 0, axis=0)
         is_plane = (types.sign < 0).any(axis=0) & (types.crosses_surface == 0.0)
-        beyond_axis = (types.crossed[0] == LOWER) & geometry.is_axisymmetric
         table = self.ghosts.particles.table
         self._crossing = table(types.crosses_surface * (1.0 + beside) - is_plane)
-        self._crosses_axis = table(beyond_axis.astype(float))
-        self.measure = self.crossing = self.beyond_axis = self._lengths
-        self.unfolded = self._lengths
+        self.crossing = self.unfolded = self.measure
 
     def _renewed(self, before: Array, values: Array) -> Array:
         """Values in the place of those before, if there are as many: loops are bound to that."""
-        if before is self._lengths or before.shape != values.shape:
+        if before is self.measure or before.shape != values.shape:
             return values
         self.backend.copy(values, before)
         return before
@@ -59,9 +54,7 @@ class PassingBlock(Block):
         super()._adapt_weights(position)
         of_type = self.ghosts.of_type
         self.unfolded = self._renewed(self.unfolded, self.ghosts.unfold(position))
-        self.measure = self._renewed(self.measure, self.gather(self._lengths))
         self.crossing = self._renewed(self.crossing, of_type(self._crossing))
-        self.beyond_axis = self._renewed(self.beyond_axis, of_type(self._crosses_axis))
 
     def renew_pairs(self, position: Array, near: Array | None) -> None:
         """Find the pairs of the rows that `near` (count,) marks; None for all."""

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from lasersph.compute.array_types import Array, Constants
+from lasersph.particles.ghosts import LOWER
 from lasersph.solvers.melt_pool.passing_block import PassingBlock, RestingBlock
 from lasersph.solvers.melt_pool.tangent_block import TangentBlock
 from lasersph.sph.rings import STEPS, evened_ring_weight, ring_pair
@@ -26,7 +27,9 @@ class Rings(PassingBlock):
         position = self.lattice.position[:, : self.count]
         self._radius = self.backend.asarray(np.ascontiguousarray(position[0]))
         self._curvature = self.backend.asarray(1.0 / position[0])
-        self._radii = self._curvatures = self._lengths
+        self._radii = self._curvatures = self.measure
+        beyond = self.ghosts.particles.ghost_types.crossed[0] == LOWER
+        self._sides = self.ghosts.particles.table(np.where(beyond, -1.0, 1.0))
         self._numbers = self.backend.asarray(np.arange(float(self.count)))
         self._heat = self._mean = self._hoop = self.weights
         self._is_uneven = self._find_uneven(position[0])
@@ -57,13 +60,15 @@ class Rings(PassingBlock):
     def _adapt_weights(self, position: Array) -> None:
         """Weights of rings: those of the plane times their mean length, none across the axis."""
         super()._adapt_weights(position)
-        self._radii = self._renewed(self._radii, self.gather(self._radius))
+        radii = self.gather(self._radius)
+        fields = {"a": radii, "b": self.ghosts.of_type(self._sides)}
+        self.backend.pointwise(product, fields, radii)
+        self._radii = self._renewed(self._radii, radii)
         self._curvatures = self._renewed(self._curvatures, self.gather(self._curvature))
         # of the flow and of heat, and what both rings are over one of them
         names = ("heat", "mean", "hoop")
         self._heat, self._mean, self._hoop = (self._geometry.per_pair(name) for name in names)
-        fields = {"g_ij": self.weights, "measure": self.measure, "beyond": self.beyond_axis}
-        fields |= {"r": self._radii, "c": self._curvatures}
+        fields = {"g_ij": self.weights, "r": self._radii, "c": self._curvatures}
         out = (self.weights, self._heat, self._mean, self._hoop)
         self.backend.pair_values(ring_pair, self.pairs, fields, out, rows=self.rows)
         if self._is_uneven is not None:
@@ -102,5 +107,5 @@ class RingTangentBlock(Rings, TangentBlock):
         length_ratio = self.surface.length_ratio()
         assert length_ratio is not None
         ratio = self.backend.to_host(length_ratio)
-        ring = self.backend.to_host(self._lengths)[: ratio.size]
+        ring = self.backend.to_host(self.measure)[: ratio.size]
         return (high - low) * float(np.mean(ratio * ring))

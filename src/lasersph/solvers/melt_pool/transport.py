@@ -223,6 +223,7 @@ class Transport:
         self._passing = self.backend.zeros(self.v.shape)
         self._carried, self._settled = particles["velocity_carried"], particles["settled_jump"]
         count, vectors = volume.shape[0], self.v.shape
+        self._no_jump = self.backend.zeros(count)
         self._middle = tuple(self.backend.zeros(shape) for shape in (count, count, vectors))
 
     def carry(
@@ -278,7 +279,7 @@ class Transport:
 
     def _mirror(self, block: PassingBlock, v: Array) -> Array:
         """(d, M) a velocity of particles and their images [m/s]."""
-        return block.ghosts.mirror_velocity(v, self.backend.zeros(self.v.shape[1]))
+        return block.ghosts.mirror_velocity(v, self._no_jump)
 
     def _beyond_walls(self, block: PassingBlock) -> dict[str, Array]:
         """v and h of particles and their images as their gradients see them."""
